@@ -51,7 +51,7 @@ struct Forest {
 Forest spanning_forest(const CurveGraph& graph, const std::vector<std::uint32_t>& degree) {
   constexpr std::uint32_t kNone = 0xffffffffU;
   const std::size_t count = graph.nodes.size();
-  const std::vector<std::vector<std::uint32_t>> lists = node_neighbours(graph);
+  const IndexLists lists = node_neighbours(graph);
   Forest forest{.order = {},
                 .place = std::vector<std::uint32_t>(count, 0),
                 .parent = std::vector<std::uint32_t>(count, kNone),

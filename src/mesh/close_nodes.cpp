@@ -28,15 +28,14 @@ struct Pair {
 class MergingGraph {
  public:
   MergingGraph(const CurveGraph& graph, std::vector<double> weight)
-      : position_(graph.nodes),
-        weight_(std::move(weight)),
-        neighbours_(node_neighbours(graph)),
-        parent_(graph.nodes.size()) {
+      : position_(graph.nodes), weight_(std::move(weight)), parent_(graph.nodes.size()) {
     for (std::uint32_t i = 0; i < parent_.size(); ++i) {
       parent_[i] = i;
     }
-    for (auto& list : neighbours_) {
-      std::sort(list.begin(), list.end());
+    const IndexLists lists = node_neighbours(graph);
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      neighbours_.emplace_back(lists[i].begin(), lists[i].end());
+      std::sort(neighbours_.back().begin(), neighbours_.back().end());
     }
   }
 
@@ -117,7 +116,7 @@ class MergingGraph {
 
   std::vector<Vec3> position_;
   std::vector<double> weight_;
-  std::vector<std::vector<std::uint32_t>> neighbours_;
+  std::vector<std::vector<std::uint32_t>> neighbours_{};
   std::vector<std::uint32_t> parent_;
 };
 

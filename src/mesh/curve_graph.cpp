@@ -9,13 +9,11 @@
 namespace vantage {
 namespace {
 
-using Lists = std::vector<std::vector<std::uint32_t>>;
-
 /// Walks from `start` over `next` until a node that is not in the middle of a chain, or `start`.
-std::vector<std::uint32_t> walk(const Lists& lists, std::uint32_t start, std::uint32_t next) {
+std::vector<std::uint32_t> walk(const IndexLists& lists, std::uint32_t start, std::uint32_t next) {
   std::vector<std::uint32_t> run{start, next};
   while (run.back() != start && lists[run.back()].size() == 2) {
-    const auto& pair = lists[run.back()];
+    const auto pair = lists[run.back()];
     run.push_back(pair[0] == run[run.size() - 2] ? pair[1] : pair[0]);
   }
   return run;
@@ -23,20 +21,25 @@ std::vector<std::uint32_t> walk(const Lists& lists, std::uint32_t start, std::ui
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> node_neighbours(const CurveGraph& graph) {
-  std::vector<std::vector<std::uint32_t>> lists(graph.nodes.size());
+IndexLists node_neighbours(const CurveGraph& graph) {
+  IndexLists lists;
+  for (const std::uint32_t degree : node_degrees(graph)) {
+    lists.offsets.push_back(lists.offsets.back() + degree);
+  }
+  lists.values.resize(lists.offsets.back());
+  std::vector<std::uint32_t> next(lists.offsets.begin(), lists.offsets.end() - 1);
   for (const auto& [a, b] : graph.edges) {
-    lists[a].push_back(b);
-    lists[b].push_back(a);
+    lists.values[next[a]++] = b;
+    lists.values[next[b]++] = a;
   }
   return lists;
 }
 
 std::vector<Vec3> smoothed_along_chains(std::span<const Vec3> positions,
-                                        const std::vector<std::vector<std::uint32_t>>& neighbours) {
+                                        const IndexLists& neighbours) {
   std::vector<Vec3> smooth(positions.begin(), positions.end());
   for (std::size_t i = 0; i < smooth.size(); ++i) {
-    if (const std::vector<std::uint32_t>& around = neighbours[i]; around.size() == 2) {
+    if (const std::span<const std::uint32_t> around = neighbours[i]; around.size() == 2) {
       smooth[i] = 0.5 * positions[i] + 0.25 * (positions[around[0]] + positions[around[1]]);
     }
   }
@@ -68,7 +71,7 @@ std::vector<std::uint32_t> node_degrees(const CurveGraph& graph) {
 }
 
 std::vector<std::vector<std::uint32_t>> graph_branches(const CurveGraph& graph) {
-  const Lists lists = node_neighbours(graph);
+  const IndexLists lists = node_neighbours(graph);
   std::vector<std::vector<std::uint32_t>> branches;
   std::vector<bool> done(graph.nodes.size(), false);  // only of nodes within chains
   const auto add_from = [&](std::uint32_t start) {

@@ -27,8 +27,7 @@ struct ChainEnd {
 };
 
 /// The end of a plain chain of at least three nodes that do not end on the other side at once.
-std::optional<ChainEnd> chain_end(std::uint32_t tip,
-                                  const std::vector<std::vector<std::uint32_t>>& neighbours) {
+std::optional<ChainEnd> chain_end(std::uint32_t tip, const IndexLists& neighbours) {
   const auto beyond = [&](std::uint32_t node, std::uint32_t from) {
     return neighbours[node][neighbours[node][0] == from ? 1 : 0];
   };

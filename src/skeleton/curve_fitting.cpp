@@ -109,7 +109,7 @@ class FinerCurve {
   CurveGraph curve_;
   std::vector<std::vector<std::uint32_t>> near_;  // of nodes of the first graph
   std::map<std::uint32_t, NearestPoint> hubs_{};  // of these, by where they are now
-  std::vector<std::vector<std::uint32_t>> neighbours_{};
+  IndexLists neighbours_{};
 };
 
 }  // namespace

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
+#include <queue>
+#include <tuple>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
@@ -12,60 +15,127 @@
 namespace vantage {
 namespace {
 
-using Adjacency = std::vector<std::vector<std::uint32_t>>;
-
 /// An end of the graph: the nodes from its tip up to, not including, the junction.
 struct End {
   double length = 0.0;
-  std::uint32_t junction = Skeleton::kNone;
+  std::uint32_t junction = Skeleton::kNone;  ///< None on a plain path.
   std::vector<std::uint32_t> nodes{};
 };
 
-/// Walks from a tip to the first junction; no junction is found on a plain path.
-End walk_from(std::uint32_t tip, const Adjacency& lists, const CurveGraph& graph) {
-  End end;
-  std::uint32_t previous = Skeleton::kNone;
-  std::uint32_t node = tip;
-  while (lists[node].size() <= 2) {
-    end.nodes.push_back(node);
-    std::uint32_t next = Skeleton::kNone;
-    for (const std::uint32_t c : lists[node]) {
-      next = c != previous ? c : next;
+/// The ends of a graph while they are cut. Each tip walks on from where it stands when its junction becomes
+/// a node of its chain, so that no edge is walked twice in one direction.
+class Ends {
+ public:
+  Ends(const CurveGraph& graph, double ratio, const std::vector<double>& radius)
+      : graph_(graph),
+        ratio_(ratio),
+        radius_(radius),
+        neighbours_(node_neighbours(graph)),
+        degree_(node_degrees(graph)) {
+    const std::size_t count = graph.nodes.size();
+    stands_for_.resize(count);
+    std::iota(stands_for_.begin(), stands_for_.end(), 0U);
+    end_at_.assign(count, kNoEnd);
+    for (std::uint32_t tip = 0; tip < count; ++tip) {
+      if (degree_[tip] == 1) {
+        ends_.emplace_back().nodes.push_back(tip);
+        walk(ends_.size() - 1);
+      }
     }
-    if (next == Skeleton::kNone) {
-      return {};
-    }
-    end.length += (graph.nodes[next] - graph.nodes[node]).norm();
-    previous = node;
-    node = next;
   }
-  end.junction = node;
-  return end;
-}
 
-/// The shortest end that is shorter than its junction is thick; its junction is kNone if none is.
-End shortest_spurious_end(const CurveGraph& graph, const Adjacency& lists, double ratio,
-                          const std::vector<double>& radius) {
-  End best;
-  best.length = std::numeric_limits<double>::infinity();
-  for (std::uint32_t tip = 0; tip < graph.nodes.size(); ++tip) {
-    if (lists[tip].size() != 1) {
-      continue;
+  /// Cuts all that are shorter than their junction is thick, shortest first. \return of each node the one
+  /// that takes its vertices.
+  std::vector<std::uint32_t> cut() {
+    while (!shorter_.empty()) {
+      const Short next = shorter_.top();
+      shorter_.pop();
+      if (ends_[next.end].junction == next.junction) {  // it has not grown since
+        cut(ends_[next.end]);
+      }
     }
-    End end = walk_from(tip, lists, graph);
-    if (end.junction != Skeleton::kNone && end.length < ratio * radius[end.junction] &&
-        end.length < best.length) {
-      best = std::move(end);
+    return std::move(stands_for_);
+  }
+
+ private:
+  static constexpr std::size_t kNoEnd = std::numeric_limits<std::size_t>::max();
+
+  struct Short {
+    double length;
+    std::size_t end;
+    std::uint32_t junction;
+
+    /// Order of a min-heap: by length, then by tip.
+    bool operator<(const Short& other) const {
+      return std::tie(other.length, other.end) < std::tie(length, end);
+    }
+  };
+
+  /// From the end's last node to the first junction; there is none on a plain path.
+  void walk(std::size_t index) {
+    End& end = ends_[index];
+    end.junction = Skeleton::kNone;
+    std::uint32_t node = end.nodes.back();
+    std::uint32_t previous =
+        end.nodes.size() > 1 ? end.nodes[end.nodes.size() - 2] : Skeleton::kNone;
+    for (;;) {
+      std::uint32_t next = Skeleton::kNone;
+      for (const std::uint32_t c : neighbours_[node]) {
+        next = c != previous && stands_for_[c] == c ? c : next;
+      }
+      if (next == Skeleton::kNone) {
+        return;
+      }
+      end.length += (graph_.nodes[next] - graph_.nodes[node]).norm();
+      previous = node;
+      node = next;
+      if (degree_[node] > 2) {
+        break;
+      }
+      end.nodes.push_back(node);
+    }
+    end.junction = node;
+    end_at_[previous] = index;
+    if (end.length < ratio_ * radius_[node]) {
+      shorter_.push({end.length, index, node});
     }
   }
-  return best;
-}
+
+  void cut(End& end) {
+    const std::uint32_t junction = end.junction;
+    for (const std::uint32_t node : end.nodes) {
+      stands_for_[node] = junction;
+    }
+    end = {};
+    if (--degree_[junction] > 2) {
+      return;
+    }
+    for (const std::uint32_t last : neighbours_[junction]) {
+      const std::size_t waiting = end_at_[last];
+      if (stands_for_[last] == last && waiting != kNoEnd && ends_[waiting].junction == junction) {
+        ends_[waiting].nodes.push_back(junction);
+        walk(waiting);
+      }
+    }
+  }
+
+  const CurveGraph& graph_;
+  double ratio_;
+  const std::vector<double>& radius_;
+  IndexLists neighbours_;
+  std::vector<std::uint32_t> degree_;        ///< Of each node: neighbours that are left.
+  std::vector<std::uint32_t> stands_for_{};  ///< Of each node; itself if it is left.
+  std::vector<std::size_t> end_at_{};        ///< Of each node: the end that it is the last of.
+  std::vector<End> ends_{};                  ///< By ascending tip.
+  std::priority_queue<Short>
+      shorter_{};  ///< Than their junctions are thick; some have grown since.
+};
 
 /// Radii in which nodes that stand for no vertex have the mean of their neighbours, ring by ring.
 /// \param count of vertices of each node.
 std::vector<double> filled_from_neighbours(const CurveGraph& graph, std::vector<double> count,
                                            std::vector<double> radius) {
-  const Adjacency lists = node_neighbours(graph);
+  const IndexLists lists = node_neighbours(graph);
   for (bool changed = true; changed;) {
     changed = false;
     const std::vector<double> known = count;
@@ -127,7 +197,7 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
   return centred;
 }
 
-CurveGraph without_merged(const CurveGraph& graph, const std::vector<std::uint32_t>& stands_for,
+CurveGraph without_merged(const CurveGraph& graph, std::vector<std::uint32_t> stands_for,
                           std::vector<std::uint32_t>& node_of_vertex) {
   CurveGraph kept;
   std::vector<std::uint32_t> new_of_old(graph.nodes.size(), Skeleton::kNone);
@@ -144,9 +214,10 @@ CurveGraph without_merged(const CurveGraph& graph, const std::vector<std::uint32
   }
   for (std::uint32_t& node : node_of_vertex) {
     if (node != Skeleton::kNone) {
-      // A junction may itself have become part of a longer end that was cut later.
+      // A junction may itself have become part of a longer end that was cut later. Ways that were gone are
+      // halved: such ends may hang one from the other by the thousand.
       while (stands_for[node] != node) {
-        node = stands_for[node];
+        node = stands_for[node] = stands_for[stands_for[node]];
       }
       node = new_of_old[node];
     }
@@ -156,24 +227,7 @@ CurveGraph without_merged(const CurveGraph& graph, const std::vector<std::uint32
 
 CurveGraph prune_ends(const CurveGraph& graph, double ratio, const std::vector<double>& radius,
                       std::vector<std::uint32_t>& node_of_vertex) {
-  Adjacency lists = node_neighbours(graph);
-  std::vector<std::uint32_t> stands_for(graph.nodes.size());
-  for (std::uint32_t i = 0; i < stands_for.size(); ++i) {
-    stands_for[i] = i;
-  }
-  for (;;) {
-    const End end = shortest_spurious_end(graph, lists, ratio, radius);
-    if (end.junction == Skeleton::kNone) {
-      break;
-    }
-    std::erase(lists[end.junction], end.nodes.back());
-    for (const std::uint32_t node : end.nodes) {
-      lists[node].clear();
-      stands_for[node] = end.junction;
-    }
-  }
-
-  return without_merged(graph, stands_for, node_of_vertex);
+  return without_merged(graph, Ends(graph, ratio, radius).cut(), node_of_vertex);
 }
 
 }  // namespace vantage

@@ -23,11 +23,12 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
 /// The graph without the nodes that others stand for; their edges to others go.
 /// \param stands_for     of each node the one that takes its vertices, itself if it stays.
 /// \param node_of_vertex mapped to the remaining nodes.
-CurveGraph without_merged(const CurveGraph& graph, const std::vector<std::uint32_t>& stands_for,
+CurveGraph without_merged(const CurveGraph& graph, std::vector<std::uint32_t> stands_for,
                           std::vector<std::uint32_t>& node_of_vertex);
 
 /// Cuts ends whose length is below `ratio` times the radius at the junction they hang from,
 /// shortest first; their vertices go to the junction. Cycles and components stay.
+/// \complexity O(n log n) for n nodes.
 /// \param radius         |N| radii.
 /// \param node_of_vertex mapped to the remaining nodes.
 CurveGraph prune_ends(const CurveGraph& graph, double ratio, const std::vector<double>& radius,

@@ -20,8 +20,6 @@ namespace {
 constexpr double kCircumference = 2.0 * std::numbers::pi;  // over the radius
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-using Adjacency = std::vector<std::vector<std::uint32_t>>;
-
 /// A loop of a graph.
 struct Loop {
   std::vector<std::uint32_t> nodes{};  ///< In order.
@@ -29,7 +27,7 @@ struct Loop {
 };
 
 /// The shortest loop over an edge, without nodes if it is longer than `most`.
-Loop loop_over(const CurveGraph& graph, const Adjacency& lists, std::array<std::uint32_t, 2> edge,
+Loop loop_over(const CurveGraph& graph, const IndexLists& lists, std::array<std::uint32_t, 2> edge,
                double most) {
   const auto span = [&graph](std::uint32_t a, std::uint32_t b) {
     return (graph.nodes[a] - graph.nodes[b]).norm();
@@ -155,7 +153,7 @@ void close_short_loops(CurveGraph& graph, const TriMesh& samples,
   while (cycle_count(graph) > 0) {
     run.check();
     const std::vector<double> radius = node_radii(graph, samples, node_of_vertex);
-    const Adjacency lists = node_neighbours(graph);
+    const IndexLists lists = node_neighbours(graph);
     double most = kCircumference * *std::max_element(radius.begin(), radius.end());
     std::vector<std::uint32_t> shortest;
     for (const auto& edge : graph.edges) {

@@ -164,7 +164,7 @@ class EdgeRouter {
   std::vector<std::uint32_t>& node_of_vertex_;
   std::vector<std::uint32_t> component_;  ///< Of the nodes that were there at the start.
   std::vector<std::vector<std::uint32_t>> vertices_;
-  std::vector<std::vector<std::uint32_t>> neighbours_;  ///< Before any was put in between.
+  IndexLists neighbours_;  ///< Before any was put in between.
   std::vector<Way> ways_{};
   std::optional<InteriorPaths> paths_{};
 };

@@ -35,7 +35,7 @@ class WallMiddles {
   const Shell& shell_;
   std::vector<Vec3> place_;  ///< Where each node should be.
   PlaceOrder order_;
-  std::vector<std::vector<std::uint32_t>> neighbours_;
+  IndexLists neighbours_;
   std::vector<std::vector<Vec3>> middles_;  ///< That each node may go to; none: it stays.
   std::vector<bool> settled_;
 };

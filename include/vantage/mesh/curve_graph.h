@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/core/vec3.h"
+#include "vantage/mesh/topology.h"
 
 namespace vantage {
 
@@ -28,12 +29,12 @@ std::size_t cycle_count(const CurveGraph& graph);
 std::vector<std::uint32_t> node_degrees(const CurveGraph& graph);
 
 /// The nodes that share an edge with each node, in the order of edges.
-std::vector<std::vector<std::uint32_t>> node_neighbours(const CurveGraph& graph);
+IndexLists node_neighbours(const CurveGraph& graph);
 
 /// Nodes of two neighbours moved to ½ of their own place and ¼ of each neighbour's; others as they are.
 /// \param positions |N| \param neighbours as node_neighbours() gives them.
 std::vector<Vec3> smoothed_along_chains(std::span<const Vec3> positions,
-                                        const std::vector<std::vector<std::uint32_t>>& neighbours);
+                                        const IndexLists& neighbours);
 
 /// The graph as polylines, each a run of node indices: from an end or junction to the next, or, where
 /// a component is a plain loop, from its lowest node around to it again. Every edge is in exactly

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "skeleton/embedding.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "vantage/skeleton/skeleton.h"
+
+#include "core/random.h"
 
 namespace vantage {
 namespace {
@@ -88,6 +93,104 @@ TEST(PruneEnds, FollowsVerticesThroughAJunctionThatIsCutLater) {
   const Pruned pruned = prune(graph, 1.0, 0.7);
   EXPECT_EQ(pruned.node_of_vertex,
             (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 2, 2, 2, Skeleton::kNone}));
+}
+
+/// Cuts as prune_ends() does, by the letter: looks at all ends anew for each that is cut.
+Pruned pruned_by_the_letter(const CurveGraph& graph, const std::vector<double>& radius) {
+  const IndexLists flat = node_neighbours(graph);
+  std::vector<std::vector<std::uint32_t>> lists;
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    lists.emplace_back(flat[i].begin(), flat[i].end());
+  }
+  std::vector<std::uint32_t> stands_for(graph.nodes.size());
+  std::iota(stands_for.begin(), stands_for.end(), 0U);
+  for (;;) {
+    double shortest = std::numeric_limits<double>::infinity();
+    std::vector<std::uint32_t> best;  // its nodes, then the junction
+    for (std::uint32_t tip = 0; tip < lists.size(); ++tip) {
+      std::vector<std::uint32_t> way{tip};
+      double length = 0.0;
+      for (std::size_t left = 1; lists[tip].size() == 1 && left == 1;) {
+        const std::uint32_t from = way.size() > 1 ? way[way.size() - 2] : Skeleton::kNone;
+        const auto& around = lists[way.back()];
+        const std::uint32_t next = around.front() != from ? around.front() : around.back();
+        length += (graph.nodes[next] - graph.nodes[way.back()]).norm();
+        way.push_back(next);
+        left = lists[next].size() - 1;
+      }
+      if (way.size() > 1 && lists[way.back()].size() > 2 && length < radius[way.back()] &&
+          length < shortest) {
+        shortest = length;
+        best = way;
+      }
+    }
+    if (best.empty()) {
+      break;
+    }
+    const std::uint32_t junction = best.back();
+    best.pop_back();
+    std::erase(lists[junction], best.back());
+    for (const std::uint32_t node : best) {
+      lists[node].clear();
+      stands_for[node] = junction;
+    }
+  }
+  Pruned result;
+  for (std::uint32_t i = 0; i < stands_for.size(); ++i) {
+    result.node_of_vertex.push_back(i);
+  }
+  result.graph = without_merged(graph, stands_for, result.node_of_vertex);
+  return result;
+}
+
+TEST(PruneEnds, CutsWhatLookingAtAllEndsAnewWouldCut) {
+  Pcg32 random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    CurveGraph graph;
+    std::vector<double> radius;
+    const auto count = static_cast<std::uint32_t>(random.below(60) + 2);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      // On a grid, so that many ends are equally long.
+      graph.nodes.emplace_back(static_cast<double>(random.below(4)),
+                               static_cast<double>(random.below(4)), 0.0);
+      radius.push_back(static_cast<double>(random.below(8)));
+      if (i > 0) {
+        const auto to = static_cast<std::uint32_t>(
+            trial % 2 == 0 ? random.below(i) : i - 1 - random.below(std::min(i, 3U)));
+        graph.edges.push_back({to, i});
+      }
+    }
+    graph.edges.push_back({count - 1, count});  // a cycle on a stalk
+    for (std::uint32_t i = count; i < count + 3; ++i) {
+      graph.nodes.emplace_back(0.5, 0.5, static_cast<double>(i));
+      radius.push_back(1.0);
+      graph.edges.push_back({i == count + 2 ? count : i, i == count + 2 ? i : i + 1});
+    }
+    const Pruned expected = pruned_by_the_letter(graph, radius);
+    std::vector<std::uint32_t> node_of_vertex(graph.nodes.size());
+    std::iota(node_of_vertex.begin(), node_of_vertex.end(), 0U);
+    const CurveGraph pruned = prune_ends(graph, 1.0, radius, node_of_vertex);
+    EXPECT_EQ(pruned.nodes, expected.graph.nodes) << trial;
+    EXPECT_EQ(pruned.edges, expected.graph.edges) << trial;
+    EXPECT_EQ(node_of_vertex, expected.node_of_vertex) << trial;
+  }
+}
+
+/// Nodes in a row, each with a tooth that is longer by more than a step than the one before.
+TEST(PruneEnds, LooksAtEachEdgeOfACombAFewTimes) {
+  constexpr std::uint32_t kTeeth = 50'000;
+  CurveGraph comb;
+  for (std::uint32_t i = 0; i < kTeeth; ++i) {
+    comb.nodes.emplace_back(i, 0.0, 0.0);
+    comb.nodes.emplace_back(i, 2.0 * i + 1.0, 0.0);
+    comb.edges.push_back({2 * i, 2 * i + 1});
+    if (i > 0) {
+      comb.edges.push_back({2 * i - 2, 2 * i});
+    }
+  }
+  const Pruned pruned = prune(comb, 1.0, 4.0 * kTeeth);
+  EXPECT_EQ(pruned.graph.edges.size() + 1, pruned.graph.nodes.size());
+  EXPECT_EQ(pruned.graph.edges.size(), 3U);  // the last tooth, the last step and the tooth before
 }
 
 /// Two nodes of two vertices each, one of no vertex, and an isolated vertex.
