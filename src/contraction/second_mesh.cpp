@@ -44,7 +44,8 @@ SecondMesh itself(const TriMesh& first, const ComponentHistory& history) {
           .levels = history.levels,
           .component_of_vertex = std::vector<std::uint32_t>(first.positions.size(), 0),
           .here = history.levels,
-          .there = history.levels};
+          .there = history.levels,
+          .remeshing = {Remeshing::None}};
 }
 
 /// Repeats the last level until there are so many. \pre levels not empty.
@@ -85,9 +86,8 @@ SecondMesh contract_second_mesh(const TriMesh& first, const ComponentHistory& hi
       .levels = std::move(other.levels),
       .component_of_vertex = std::vector<std::uint32_t>(second.mesh.positions.size(), 0)};
   const auto vertices = static_cast<double>(second.mesh.positions.size());
-  if (vertices > kProxyShare * static_cast<double>(first.positions.size())) {
-    result.untested = second.mesh.positions.size();
-  }
+  const bool is_hardly = vertices > kProxyShare * static_cast<double>(first.positions.size());
+  result.remeshing = {is_hardly ? Remeshing::Hardly : Remeshing::Coarser};
   for (std::size_t level = 0; level < history.levels.size(); ++level) {
     const std::vector<Vec3>& at = result.levels[std::min(level, result.levels.size() - 1)];
     auto& here = result.here.emplace_back();
@@ -113,7 +113,7 @@ void append(SecondMesh part, SecondMesh& all) {
   }
   all.component_of_vertex.insert(all.component_of_vertex.end(), part.mesh.positions.size(),
                                  component);
-  all.untested += part.untested;
+  all.remeshing.insert(all.remeshing.end(), part.remeshing.begin(), part.remeshing.end());
   append_levels(std::move(part.levels), all.levels, own);
   append_levels(std::move(part.here), all.here, count);
   append_levels(std::move(part.there), all.there, count);

@@ -83,17 +83,47 @@ double variance(const std::vector<double>& x, const std::vector<double>& weight)
   return sum / total;
 }
 
+/// Areas by which the second mesh tells whether levels count [ours].
+struct Evidence {
+  std::vector<double> area{};  ///< Of each of its vertices; 0 where it is no other mesh.
+  double tested = 0.0;         ///< The sum of these.
+  double none = 0.0;           ///< Where it is the first mesh.
+  double hardly = 0.0;         ///< Where it nearly is.
+};
+
+Evidence evidence_of(const SecondMesh& second) {
+  Evidence evidence{.area = vertex_areas(second.mesh)};
+  for (std::size_t v = 0; v < evidence.area.size(); ++v) {
+    const Remeshing remeshing = second.remeshing[second.component_of_vertex[v]];
+    double& sum = remeshing == Remeshing::Coarser ? evidence.tested
+                  : remeshing == Remeshing::None  ? evidence.none
+                                                  : evidence.hardly;
+    sum += evidence.area[v];
+    if (remeshing != Remeshing::Coarser) {
+      evidence.area[v] = 0.0;
+    }
+  }
+  return evidence;
+}
+
 /// The weight of each level, by the correlation r of its displacements with those of the surface meshed
 /// anew: 0 up to r = least, 1 from r = (1 + least) / 2 on, linear between. Two meshes may agree by chance:
 /// r is taken with the largest variance of the difference at this level or an earlier one. What was not
-/// meshed anew tells nothing. Level 0 has weight 1.
+/// meshed anew has no say; if nothing was, levels count by the share of the area that has too few vertices
+/// for it, not by what no mesher could change. Level 0 has weight 1. [ours]
 std::vector<double> level_weights(const ContractionHistory& history, const CurveGraph& skeleton,
                                   const CurveGraph& other, double least, const RunContext& run) {
   std::vector<double> weights(history.levels.size(), 1.0);
   const SecondMesh& second = history.second;
-  const std::vector<double> area = vertex_areas(second.mesh);
+  const Evidence evidence = evidence_of(second);
+  const std::vector<double>& area = evidence.area;
+  const double untested = evidence.none + evidence.hardly;
   if (other.nodes.empty() || !(least > 0.0) || second.here.size() != weights.size() ||
-      !(std::accumulate(area.begin(), area.end(), 0.0) > 0.0)) {
+      !(evidence.tested + untested > 0.0)) {
+    return weights;
+  }
+  if (!(evidence.tested > 0.0)) {
+    std::fill(weights.begin() + 1, weights.end(), evidence.none / untested);
     return weights;
   }
   const GraphDistance to_first(skeleton);
@@ -102,8 +132,6 @@ std::vector<double> level_weights(const ContractionHistory& history, const Curve
   std::vector<double> there(area.size());
   std::vector<double> difference(area.size());
   const double full = kRamp * (1.0 - least);
-  const double tested =
-      1.0 - static_cast<double>(second.untested) / static_cast<double>(area.size());
   double noise = 0.0;
   for (std::size_t level = 0; level < weights.size(); ++level) {
     parallel_for(run, area.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -118,7 +146,7 @@ std::vector<double> level_weights(const ContractionHistory& history, const Curve
     // 1 − noise / 2 signal is the correlation where both vary alike.
     const double surplus = signal > 0.0 ? 1.0 - 0.5 * noise / signal - least : 1.0 - least;
     const double unramped = surplus >= 0.0 ? 1.0 : 0.0;
-    weights[level] = tested * (full > 0.0 ? std::clamp(surplus / full, 0.0, 1.0) : unramped);
+    weights[level] = full > 0.0 ? std::clamp(surplus / full, 0.0, 1.0) : unramped;
   }
   weights.front() = 1.0;
   return weights;

@@ -73,6 +73,13 @@ struct MergedSurface {
   std::vector<std::uint32_t> of_vertex{};  ///< Of each vertex, of `refinement` if there is one.
 };
 
+/// What a component's second mesh is.
+enum class Remeshing : std::uint8_t {
+  Coarser,  ///< Another mesh: where it contracts alike tells of the surface.
+  None,     ///< The first one. It has too few vertices for another, or did not contract.
+  Hardly,   ///< Nearly the first one: few edges could be collapsed.
+};
+
 /// A second mesh of the same surface, coarser, contracted by itself. Where the two contractions agree, they tell of
 /// the surface; the rest hangs on how it is cut into triangles.
 struct SecondMesh {
@@ -82,8 +89,8 @@ struct SecondMesh {
   /// Points of the surface, next to each of its vertices, at the levels of the first contraction.
   std::vector<std::vector<Vec3>> here{};
   std::vector<std::vector<Vec3>> there{};  ///< The same points by the second contraction.
-  /// Vertices of components that could hardly be made coarser: agreement there tells nothing.
-  std::size_t untested = 0;
+  std::vector<Remeshing>
+      remeshing{};  ///< Of each component; agreement tells nothing but of Coarser ones.
 };
 
 /// Positions of every vertex at every level.

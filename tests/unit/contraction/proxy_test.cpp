@@ -113,6 +113,7 @@ TEST(SecondMesh, IsCoarserAndHasPlacesForAllItsVerticesAtAllLevels) {
   const std::size_t n = second.mesh.positions.size();
   EXPECT_LT(2 * n, mesh.positions.size());
   EXPECT_EQ(second.component_of_vertex.back(), 1U);
+  EXPECT_EQ(second.remeshing, std::vector<Remeshing>(2, Remeshing::Coarser));
   ASSERT_EQ(second.here.size(), history.levels.size());
   ASSERT_EQ(second.there.size(), history.levels.size());
   for (std::size_t level = 0; level < history.levels.size(); ++level) {
@@ -122,6 +123,14 @@ TEST(SecondMesh, IsCoarserAndHasPlacesForAllItsVerticesAtAllLevels) {
       EXPECT_LT((second.here[level][v] - second.there[level][v]).norm(), 0.1) << level;
     }
   }
+}
+
+TEST(SecondMesh, OfAFewVerticesIsNoOther) {
+  const TriMesh mesh =
+      test::together(test::torus(1.0, 0.3, 40, 20), test::box(1, 1, 1, 1), Vec3(5.0, 0.0, 0.0));
+  const auto history =
+      contract(mesh, {.method = ContractionMethod::Exact});  // which refines nothing
+  EXPECT_EQ(history.second.remeshing, (std::vector{Remeshing::Coarser, Remeshing::None}));
 }
 
 TEST(ContractByProxy, ShrinksAsAllVerticesDoStepByStep) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "vantage/mesh/measures.h"
 #include "vantage/skeleton/skeleton.h"
 
 #include "support/dense_oracles.h"
@@ -114,7 +117,8 @@ HandMade contracted_twice() {
                          .levels = made.history.levels,
                          .component_of_vertex = {0, 0, 0, 0},
                          .here = made.history.levels,
-                         .there = made.history.levels};
+                         .there = made.history.levels,
+                         .remeshing = {Remeshing::Coarser}};
   return made;
 }
 
@@ -164,14 +168,51 @@ TEST(ComputeKssm, LeavesOutLevelsThatTheOtherMeshHasOtherwise) {
   EXPECT_EQ(map.levels_used, std::vector<std::size_t>{0});  // noise stays: level 2 is finer still
 }
 
-TEST(ComputeKssm, CountsLevelsTheLessTheMoreWasNotMeshedAnew) {
+/// Adds a large triangle to the second mesh that is, or nearly is, the first one there; far from the curve.
+void add_untested(Remeshing remeshing, SecondMesh& second) {
+  const std::uint32_t component = second.component_of_vertex.back() + 1;
+  const auto first = static_cast<std::uint32_t>(second.mesh.positions.size());
+  second.mesh.triangles.push_back({first, first + 1, first + 2});
+  second.remeshing.push_back(remeshing);
+  for (const Vec3& p : {Vec3(20, 0, 0), Vec3(0, 40, 0), Vec3(0, 0, 60)}) {
+    second.mesh.positions.push_back(p);
+    second.component_of_vertex.push_back(component);
+    for (auto* levels : {&second.levels, &second.here, &second.there}) {
+      for (auto& level : *levels) {
+        level.push_back(p);
+      }
+    }
+  }
+}
+
+TEST(ComputeKssm, WhatHasNoOtherMeshHasNoSayInWhichLevelsCount) {
+  const HandMade made = contracted_twice();
+  for (const double shift : {0.0, 0.03, 0.05, 0.3}) {
+    const CurveGraph other{.nodes = {{shift, 0, 0}}, .edges = {}};
+    const KssmMap alone = compute_kssm(made.mesh, made.history, made.graph, {}, {}, other);
+    for (const Remeshing remeshing : {Remeshing::None, Remeshing::Hardly}) {
+      HandMade beside = made;
+      add_untested(remeshing, beside.history.second);
+      const KssmMap map = compute_kssm(made.mesh, beside.history, made.graph, {}, {}, other);
+      EXPECT_EQ(map.level_factor, alone.level_factor) << shift;
+    }
+  }
+}
+
+TEST(ComputeKssm, WhereNothingHasAnotherMeshCountsLevelsByTheAreaThatIsTooSmallForOne) {
   HandMade made = contracted_twice();
   const KssmMap all = compute_kssm(made.mesh, made.history, made.graph, {}, {}, made.graph);
-  made.history.second.untested = 1;  // of four vertices
+  made.history.second.remeshing = {Remeshing::None};
+  EXPECT_EQ(compute_kssm(made.mesh, made.history, made.graph, {}, {}, made.graph).level_factor,
+            all.level_factor);
+  add_untested(Remeshing::Hardly, made.history.second);
+  const std::vector<double> area = vertex_areas(made.history.second.mesh);
+  const double small = std::accumulate(area.begin(), area.begin() + 4, 0.0);
+  const double whole = std::accumulate(area.begin(), area.end(), 0.0);
   const KssmMap some = compute_kssm(made.mesh, made.history, made.graph, {}, {}, made.graph);
-  EXPECT_DOUBLE_EQ(some.level_factor[1], 0.75 * all.level_factor[1]);
+  EXPECT_DOUBLE_EQ(some.level_factor[1], small / whole * all.level_factor[1]);
   EXPECT_EQ(some.level_factor[0], all.level_factor[0]);
-  made.history.second.untested = 4;
+  made.history.second.remeshing = {Remeshing::Hardly, Remeshing::Hardly};
   EXPECT_EQ(compute_kssm(made.mesh, made.history, made.graph, {}, {}, made.graph).levels_used,
             std::vector<std::size_t>{0});
 }
