@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -108,15 +107,14 @@ struct State {
 class Contraction {
  public:
   Contraction(const TriMesh& scaled, const ContractionOptions& options, const EvenShares& shares,
-              const RunContext& run, bool is_careful, StepSolver* solver)
+              const RunContext& run, StepWeights weights, StepSolver& solver)
       : options_(options),
         run_(run),
         shares_(shares),
         soundness_(scaled),
         ratios_(scaled, shares),
-        own_solver_(solver == nullptr ? std::make_unique<StepSolver>(scaled, shares) : nullptr),
-        solver_(solver == nullptr ? *own_solver_ : *solver),
-        variant_(is_careful ? kSafer : 0) {
+        solver_(solver),
+        variant_(weights == StepWeights::ForSlivers ? kSafer : 0) {
     const double first =
         shares.empty() ? first_contraction(ratios_.mean_area()) : shares.first_contraction();
     state_ = {scaled, std::min(first, options.contraction_limit),
@@ -243,7 +241,7 @@ class Contraction {
       attempt.contraction = W_L;
       std::tie(attempt.vertex_ratio, attempt.shrinkage) = ratios_.of_vertices(attempt.mesh);
       attempt.flaw = soundness_.flaw(state_.now, attempt.mesh.positions, state_.shrinkage,
-                                     attempt.shrinkage, variant.regularisation == kAsDefined);
+                                     attempt.shrinkage, bound_of(variant.regularisation));
       const bool too_gentle = attempt.flaw == StepFlaw::Rose && state_.shrinkage > kBegun &&
                               attempt.shrinkage < 2.0 - kBegun;
       const double larger = grown(W_L, limit);
@@ -259,7 +257,6 @@ class Contraction {
   const EvenShares& shares_;
   Soundness soundness_;
   AreaRatios ratios_;
-  std::unique_ptr<StepSolver> own_solver_;
   StepSolver& solver_;
   State state_{};
   std::optional<State> limited_{};  // before the first step whose W_L a limit kept low
@@ -296,12 +293,19 @@ std::vector<Vec3> thin_further(Contraction& surface, const ContractionOptions& o
 
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
                                     const RunContext& run, const EvenShares& shares,
-                                    bool is_careful, StepSolver* solver) {
+                                    StepWeights weights) {
+  StepSolver solver(scaled, shares);
+  return contract_component(scaled, options, run, shares, weights, solver);
+}
+
+ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
+                                    const RunContext& run, const EvenShares& shares,
+                                    StepWeights weights, StepSolver& solver) {
   ComponentHistory history;
   history.summary.vertices = scaled.positions.size();
   history.levels.push_back(scaled.positions);
   history.shrinkage.push_back(1.0);
-  Contraction surface(scaled, options, shares, run, is_careful, solver);
+  Contraction surface(scaled, options, shares, run, weights, solver);
   if (!surface.has_area()) {
     return history;
   }

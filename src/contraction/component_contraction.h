@@ -48,12 +48,22 @@ class StepSolver;
 /// The shares of a surface; empty if it has no area.
 EvenShares even_shares(const TriMesh& mesh);
 
+/// What all steps of a component begin with.
+enum class StepWeights {
+  AsDefined,
+  ForSlivers,  ///< Safer ones, which others resort to.
+};
+
 /// Contracts one component already scaled as options.scaling says (docs/contraction.md).
-/// \param is_careful whether all steps are taken with the weights that are meant for slivers.
-/// \param solver of `scaled` with shares of the same counts, from an earlier contraction of it, if there is one.
+/// \param weights those that all steps begin with.
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
                                     const RunContext& run, const EvenShares& shares = {},
-                                    bool is_careful = false, StepSolver* solver = nullptr);
+                                    StepWeights weights = StepWeights::AsDefined);
+
+/// The same. \param solver of `scaled` with shares of the same counts: several contractions share what it finds.
+ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
+                                    const RunContext& run, const EvenShares& shares,
+                                    StepWeights weights, StepSolver& solver);
 
 }  // namespace vantage

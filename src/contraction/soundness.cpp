@@ -93,9 +93,8 @@ Soundness::Soundness(const TriMesh& start)
       samples_(farthest_points(start.positions, sphere_.centre)) {}
 
 StepFlaw Soundness::flaw(const TriMesh& before, const std::vector<Vec3>& after,
-                         double shrinkage_before, double shrinkage_after,
-                         bool is_as_defined) const {
-  if (outgrown(after, is_as_defined)) {
+                         double shrinkage_before, double shrinkage_after, StepBound bound) const {
+  if (outgrown(after, bound)) {
     return StepFlaw::Grew;
   }
   if (!(shrinkage_after <= shrinkage_before + kRise)) {
@@ -104,10 +103,11 @@ StepFlaw Soundness::flaw(const TriMesh& before, const std::vector<Vec3>& after,
   return collapsed(before, after) ? StepFlaw::Collapsed : StepFlaw::None;
 }
 
-bool Soundness::outgrown(const std::vector<Vec3>& now, bool is_as_defined) const {
+bool Soundness::outgrown(const std::vector<Vec3>& now, StepBound bound) const {
   const double farthest = kFarthest * 0.5 * sphere_.diameter;
   return (bounding_box(now).size().array() > largest_.array()).any() ||
-         (is_as_defined && std::any_of(now.begin(), now.end(), [&](const Vec3& p) {
+         (bound == StepBound::BoxAndSphere &&
+          std::any_of(now.begin(), now.end(), [&](const Vec3& p) {
             return (p - sphere_.centre).squaredNorm() > farthest * farthest;
           }));
 }

@@ -18,6 +18,12 @@ enum class StepFlaw {
   Collapsed,  ///< A curve, or a part of it, ran to a point.
 };
 
+/// What bounds how far a step may reach.
+enum class StepBound {
+  BoxAndSphere,  ///< Of a step as it is defined.
+  Box,           ///< Of one that was made more safely.
+};
+
 /// Tells sound steps from others, which are not to be kept [ours; the paper discards only steps that
 /// outgrow the box].
 class Soundness {
@@ -32,13 +38,13 @@ class Soundness {
   explicit Soundness(const TriMesh& start);
 
   /// \param before, after what the step leads from and to. \param shrinkage_before,
-  /// shrinkage_after their a_t. \param is_as_defined false: only the box bounds how far it may reach.
+  /// shrinkage_after their a_t.
   [[nodiscard]] StepFlaw flaw(const TriMesh& before, const std::vector<Vec3>& after,
                               double shrinkage_before, double shrinkage_after,
-                              bool is_as_defined) const;
+                              StepBound bound) const;
 
  private:
-  [[nodiscard]] bool outgrown(const std::vector<Vec3>& now, bool is_as_defined) const;
+  [[nodiscard]] bool outgrown(const std::vector<Vec3>& now, StepBound bound) const;
   [[nodiscard]] bool collapsed(const TriMesh& before, const std::vector<Vec3>& after) const;
 
   Sphere sphere_;

@@ -25,6 +25,10 @@ LaplacianLimits limits_of(const ContractionOptions& options, int regularisation)
   return limits;
 }
 
+StepBound bound_of(int regularisation) {
+  return regularisation == kAsDefined ? StepBound::BoxAndSphere : StepBound::Box;
+}
+
 double shift_of(double largest, int regularisation) {
   return regularisation > kAsDefined + 1
              ? largest * kFirstShift * std::pow(100.0, regularisation - kAsDefined - 2)

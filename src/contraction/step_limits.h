@@ -6,6 +6,8 @@
 #include "vantage/contraction/contraction.h"
 #include "vantage/operators/cotangent_laplacian.h"
 
+#include "contraction/soundness.h"
+
 /// \file
 /// What the steps of meshes and of point clouds share: how an ill-conditioned one is made solvable
 /// and how far a solved one may reach.
@@ -23,6 +25,9 @@ constexpr int kMostRegularised = 5;
 
 /// How the Laplacian of a step at this level of regularisation is kept finite.
 LaplacianLimits limits_of(const ContractionOptions& options, int regularisation);
+
+/// How far a step at this level may reach.
+StepBound bound_of(int regularisation);
 
 /// What is added to the diagonal at this level. \param largest entry of the diagonal.
 double shift_of(double largest, int regularisation);

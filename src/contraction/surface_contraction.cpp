@@ -41,7 +41,7 @@ ContractionOptions without_thinning(ContractionOptions options) {
 /// ones, as long as that leads farther.
 ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions& options,
                                  const RunContext& run, EvenShares shares,
-                                 bool is_careful = false) {
+                                 StepWeights weights = StepWeights::AsDefined) {
   ComponentHistory best;
   StepSolver solver(scaled, shares);
   double done = 0.0;
@@ -52,8 +52,7 @@ ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions
     shares.least_progress = may_begin_again ? kPlateStep : 0.0;
     const RunContext part = run.part(done, 0.5 * (1.0 + done));
     done = 0.5 * (1.0 + done);
-    ComponentHistory attempt =
-        contract_component(scaled, options, part, shares, is_careful, &solver);
+    ComponentHistory attempt = contract_component(scaled, options, part, shares, weights, solver);
     if (again == 0) {
       best = std::move(attempt);
     } else if (!attempt.is_stuck) {  // larger steps may pass where these do not
@@ -110,8 +109,8 @@ struct Alternative {
 std::optional<Alternative> contract_carefully(const TriMesh& scaled, const ComponentHistory& before,
                                               const ContractionOptions& options,
                                               const RunContext& run) {
-  ComponentHistory careful =
-      contract_component(scaled, without_thinning(options), run, shares_of(scaled, options), true);
+  ComponentHistory careful = contract_component(
+      scaled, without_thinning(options), run, shares_of(scaled, options), StepWeights::ForSlivers);
   if (careful.is_stuck && careful.shrinkage.back() >= before.shrinkage.back()) {
     return std::nullopt;
   }
@@ -131,8 +130,8 @@ std::optional<Alternative> contract_even_copy(const TriMesh& scaled, const Compo
   if (proxy.mesh.positions.size() > most) {
     return std::nullopt;
   }
-  ComponentHistory copy =
-      contract_evenly(proxy.mesh, without_thinning(options), run, proxy.shares, true);
+  ComponentHistory copy = contract_evenly(proxy.mesh, without_thinning(options), run, proxy.shares,
+                                          StepWeights::ForSlivers);
   if (copy.is_stuck || copy.summary.steps == 0) {
     return std::nullopt;
   }

@@ -213,10 +213,10 @@ Collapsed thin_cloud(const TriMesh& samples, const ContractionHistory& history, 
   ClusterComplex complex(mesh, mesh.positions, weights);
   Collapsed collapsed;
   collapsed.lost_handles = collapse_to_graph(complex, run);
-  std::vector<std::uint32_t> node_of_cluster;
-  collapsed.graph = complex.graph(node_of_cluster);
+  ClusterGraph made = complex.graph();
+  collapsed.graph = std::move(made.graph);
   for (const std::uint32_t c : cluster) {
-    collapsed.node_of_vertex.push_back(node_of_cluster[c]);
+    collapsed.node_of_vertex.push_back(made.node_of_vertex[c]);
   }
   return collapsed;
 }

@@ -356,9 +356,10 @@ std::uint32_t ClusterComplex::cluster_of(std::uint32_t vertex) {
   return vertex;
 }
 
-CurveGraph ClusterComplex::graph(std::vector<std::uint32_t>& node_of_vertex) {
+ClusterGraph ClusterComplex::graph() {
   constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
-  CurveGraph graph;
+  ClusterGraph made;
+  auto& [graph, node_of_vertex] = made;
   std::vector<std::uint32_t> node_of_cluster(position_.size(), kUnset);
   node_of_vertex.resize(vertex_count_);
   for (std::uint32_t v = 0; v < position_.size(); ++v) {
@@ -379,7 +380,7 @@ CurveGraph ClusterComplex::graph(std::vector<std::uint32_t>& node_of_vertex) {
     }
   }
   std::sort(graph.edges.begin(), graph.edges.end());
-  return graph;
+  return made;
 }
 
 }  // namespace vantage

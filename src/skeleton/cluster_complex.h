@@ -17,6 +17,12 @@
 
 namespace vantage {
 
+/// What clusters and the edges between them make.
+struct ClusterGraph {
+  CurveGraph graph{};
+  std::vector<std::uint32_t> node_of_vertex{};
+};
+
 /// The contracted surface while it is collapsed to a graph: clusters of vertices, the edges that
 /// join neighbouring clusters, and the triangles among three clusters. Collapsing an edge keeps
 /// one edge between two clusters and one triangle among three.
@@ -80,8 +86,8 @@ class ClusterComplex {
   /// Cluster that stands for a vertex now.
   [[nodiscard]] std::uint32_t cluster_of(std::uint32_t vertex);
 
-  /// The live clusters and edges as a graph. \param node_of_vertex receives |V| nodes.
-  CurveGraph graph(std::vector<std::uint32_t>& node_of_vertex);
+  /// The live clusters and edges as a graph, and the node of each of the |V| vertices.
+  ClusterGraph graph();
 
  private:
   ClusterComplex(const TriMesh& mesh, const EdgeTable& table, std::vector<Vec3> positions,

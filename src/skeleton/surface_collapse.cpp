@@ -181,7 +181,9 @@ class SurfaceCollapse {
     ClusterComplex complex(mesh, mesh.positions, weights);
     Collapsed collapsed;
     collapsed.lost_handles = collapse_to_graph(complex, run, given_up_at);
-    collapsed.graph = complex.graph(collapsed.node_of_vertex);
+    ClusterGraph made = complex.graph();
+    collapsed.graph = std::move(made.graph);
+    collapsed.node_of_vertex = std::move(made.node_of_vertex);
     return collapsed;
   }
 

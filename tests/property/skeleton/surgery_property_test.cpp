@@ -46,8 +46,7 @@ ClusterComplex complex_of(const TriMesh& mesh, const std::vector<Vec3>& position
 }
 
 void expect_topology(ClusterComplex& complex, const Surface& surface) {
-  std::vector<std::uint32_t> node_of_vertex;
-  const CurveGraph graph = complex.graph(node_of_vertex);
+  const CurveGraph graph = complex.graph().graph;
   EXPECT_EQ(component_count(graph), surface.components);
   EXPECT_EQ(cycle_count(graph), surface.genus);
 }

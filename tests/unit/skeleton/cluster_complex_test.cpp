@@ -180,8 +180,7 @@ TEST(ClusterComplex, MakingRoomForAnEdgeThatKeepsHandlesChangesNothing) {
 TEST(ClusterComplex, ItsGraphMapsEveryVertexToTheNodeOfItsCluster) {
   ClusterComplex complex = complex_of(tetrahedron());
   complex.collapse(edge_between(complex, 1, 2).value());
-  std::vector<std::uint32_t> node_of_vertex;
-  const CurveGraph graph = complex.graph(node_of_vertex);
+  const auto [graph, node_of_vertex] = complex.graph();
   EXPECT_EQ(graph.nodes.size(), 3U);
   EXPECT_EQ(node_of_vertex, (std::vector<std::uint32_t>{0, 1, 1, 2}));
   EXPECT_EQ(graph.edges, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {0, 2}, {1, 2}}));
