@@ -46,7 +46,7 @@ struct ContractionOptions {
   double diagonal_limit = 1e4;        ///< Rows of L with a larger diagonal are scaled down (Cao).
   double shrinkage_tolerance = 0.01;  ///< Stop when a_{t−1} − a_t falls below (Cao).
   int max_steps = 20;                 ///< At most this many steps (Cao).
-  bool second_mesh = true;            ///< Whether ContractionHistory::second is made; no flag.
+  bool second_mesh = true;            ///< Whether ContractionHistory::second is made.
 };
 
 /// The table of ContractionOptions.
@@ -72,6 +72,7 @@ inline constexpr auto kContractionFields = std::tuple{
     Field{"shrinkage-tolerance", &ContractionOptions::shrinkage_tolerance, 0.0, 1.0,
           "stop when a step shrinks the mean face area ratio by less (Cao 2010)"},
     Field{"max-steps", &ContractionOptions::max_steps, 1, 100, "at most this many steps"},
+    Switch{"second-mesh", &ContractionOptions::second_mesh, kNoFlag},
 };
 
 /// Contracts each connected component of `mesh` by itself, as options.method says.

@@ -163,6 +163,12 @@ TEST(OptionsHash, ChangesWithWhatAPriorSaysAndNotWithItsName) {
   EXPECT_EQ(options_hash(renamed), options_hash(upright));
 }
 
+TEST(OptionsHash, ChangesWithoutTheSecondMeshWhichDecidesOnLevels) {
+  ViewOptions alone;
+  alone.contraction.second_mesh = false;
+  EXPECT_NE(options_hash(alone), options_hash({}));
+}
+
 TEST(OptionsHash, ChangesIfASetOfViewsIsAskedForByItsDefaults) {
   ViewOptions several;
   several.view_set.emplace();
