@@ -7,8 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "vantage/mesh/measures.h"
-
+#include "contraction/soundness.h"
 #include "contraction/step_limits.h"
 #include "operators/point_laplacian.h"
 #include "operators/position_solver.h"
@@ -85,18 +84,28 @@ struct PointAttempt {
       ContractionStop::SolverFailed;  ///< Why there is no result, if there is none.
 };
 
-/// Repeats a step with more regularisation while it fails or outgrows its box.
+/// Repeats a step with more regularisation while it fails or outgrows its bounds. A curve that would run to a
+/// point is done, as those of surfaces are. Whether the step shrinks anything is not asked here.
 template <class Solve>
-PointAttempt attempt_step(const Vec3& bound, int regularisation, const RunContext& run,
-                          const Solve& solve) {
+PointAttempt attempt_step(const Soundness& soundness, const TriMesh& now, int regularisation,
+                          const RunContext& run, const Solve& solve) {
   PointAttempt attempt{.regularisation = regularisation};
   for (; attempt.regularisation <= kMostRegularised; ++attempt.regularisation) {
     run.check();
     attempt.next = solve(attempt.regularisation);
-    if (attempt.next && !(bounding_box(*attempt.next).size().array() > bound.array()).any()) {
+    if (!attempt.next) {
+      attempt.stop = ContractionStop::SolverFailed;
+      continue;
+    }
+    const StepFlaw flaw =
+        soundness.flaw(now, *attempt.next, 0.0, 0.0, bound_of(attempt.regularisation));
+    if (flaw == StepFlaw::None) {
       return attempt;
     }
-    attempt.stop = attempt.next ? ContractionStop::Grew : ContractionStop::SolverFailed;
+    attempt.stop = flaw == StepFlaw::Collapsed ? ContractionStop::Collapsed : ContractionStop::Grew;
+    if (flaw == StepFlaw::Collapsed) {
+      break;
+    }
   }
   attempt.next.reset();
   return attempt;
@@ -116,17 +125,18 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
   if (!(start.mean > 0.0)) {
     return history;
   }
-  const Vec3 bound = largest_box(scaled, enclosing_sphere(scaled).diameter);
+  // All triangles that some ring has: what overlaps makes a curve of too few rather than of too many.
+  TriMesh now{scaled, agreed_triangles(rings, 1)};
+  const Soundness soundness(now);
   PointStep stepper;
-  std::vector<Vec3> now = scaled;
   double W_L = 1.0 / (5.0 * start.mean);
   std::vector<double> W_H(scaled.size(), 1.0);
   int regularisation = kAsDefined;
   history.summary.stop = ContractionStop::StepLimit;
   for (int step = 0; step < options.max_steps; ++step) {
     run.advance("contracting", static_cast<double>(step) / options.max_steps);
-    PointAttempt attempt = attempt_step(bound, regularisation, run, [&](int as) {
-      return stepper.solve(now, rings, W_L, W_H, options, as, run);
+    PointAttempt attempt = attempt_step(soundness, now, regularisation, run, [&](int as) {
+      return stepper.solve(now.positions, rings, W_L, W_H, options, as, run);
     });
     if (!attempt.next) {
       history.summary.stop = attempt.stop;
@@ -141,8 +151,8 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
       break;
     }
     if (shrinkage <= before) {  // a step too gentle to shrink anything is made stronger
-      now = std::move(*attempt.next);
-      history.levels.push_back(now);
+      now.positions = std::move(*attempt.next);
+      history.levels.push_back(now.positions);
       history.shrinkage.push_back(shrinkage);
       ++history.summary.steps;
       history.summary.regularised_steps += regularisation > kAsDefined ? 1 : 0;

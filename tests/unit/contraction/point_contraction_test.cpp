@@ -34,6 +34,29 @@ TEST(PointContraction, BringsACylinderToItsAxis) {
   EXPECT_LT(farthest, 0.1 * 0.2);
 }
 
+/// A number from −½ to ½ that looks like noise.
+double noise(double i, double series) {
+  const double large = 43758.5453 * std::abs(std::sin(12.9898 * i + series));
+  return large - std::floor(large) - 0.5;
+}
+
+TEST(PointContraction, RunsNoNoisyLineToAPoint) {
+  for (const int count : {24, 30, 40, 60, 80, 200}) {
+    for (const double width : {1e-5, 1e-3, 0.01, 0.03}) {
+      std::vector<Vec3> points;
+      for (int i = 0; i < count; ++i) {
+        points.emplace_back(10.0 * i / count, width * noise(i, 0.0), width * noise(i, 1.0));
+      }
+      const ContractionHistory history = contracted(points).history;
+      for (std::size_t level = 1; level < history.levels.size(); ++level) {
+        EXPECT_GT(bounding_box(history.levels[level]).size().x(),
+                  0.69 * bounding_box(history.levels[level - 1]).size().x())
+            << count << ' ' << width << ' ' << level;
+      }
+    }
+  }
+}
+
 TEST(PointContraction, WantsOneEntryAPointOfWhatIsLeftOut) {
   const std::vector<Vec3> points = torus(1.0, 0.3, 10, 10).positions;
   EXPECT_THROW(contract_points(points, std::vector<std::uint8_t>(points.size() - 1, 0)),
