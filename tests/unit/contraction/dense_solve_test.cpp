@@ -92,10 +92,11 @@ TEST_P(Against, ASolverThatHasBeenUsedGivesTheSameLevels) {
   const TriMesh& mesh = GetParam().mesh;
   const EvenShares shares = even_shares(mesh);
   StepSolver solver(mesh, shares);
-  for (const bool is_careful : {false, true, false, true}) {
-    const ComponentHistory alone = contract_component(mesh, {}, {}, shares, is_careful);
-    const ComponentHistory again = contract_component(mesh, {}, {}, shares, is_careful, &solver);
-    EXPECT_EQ(again.levels, alone.levels) << is_careful;  // to the bit
+  using enum StepWeights;
+  for (const StepWeights weights : {AsDefined, ForSlivers, AsDefined, ForSlivers}) {
+    const ComponentHistory alone = contract_component(mesh, {}, {}, shares, weights);
+    const ComponentHistory again = contract_component(mesh, {}, {}, shares, weights, solver);
+    EXPECT_EQ(again.levels, alone.levels) << static_cast<int>(weights);  // to the bit
   }
 }
 
