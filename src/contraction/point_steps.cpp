@@ -84,7 +84,7 @@ struct PointAttempt {
       ContractionStop::SolverFailed;  ///< Why there is no result, if there is none.
 };
 
-/// Repeats a step with more regularisation while it fails or outgrows its bounds. A curve that would run to a
+/// Repeats a step with more regularisation while it fails or outgrows its box. A curve that would run to a
 /// point is done, as those of surfaces are. Whether the step shrinks anything is not asked here.
 template <class Solve>
 PointAttempt attempt_step(const Soundness& soundness, const TriMesh& now, int regularisation,
@@ -98,7 +98,7 @@ PointAttempt attempt_step(const Soundness& soundness, const TriMesh& now, int re
       continue;
     }
     const StepFlaw flaw =
-        soundness.flaw(now, *attempt.next, 0.0, 0.0, bound_of(attempt.regularisation));
+        soundness.flaw(now, *attempt.next, 0.0, 0.0, StepBound::Box);
     if (flaw == StepFlaw::None) {
       return attempt;
     }
@@ -125,7 +125,7 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
   if (!(start.mean > 0.0)) {
     return history;
   }
-  // All triangles that some ring has: what overlaps makes a curve of too few rather than of too many.
+  // Those that a single ring has, too: triangles may overlap, but every point is checked.
   TriMesh now{scaled, agreed_triangles(rings, 1)};
   const Soundness soundness(now);
   PointStep stepper;
