@@ -97,8 +97,7 @@ PointAttempt attempt_step(const Soundness& soundness, const TriMesh& now, int re
       attempt.stop = ContractionStop::SolverFailed;
       continue;
     }
-    const StepFlaw flaw =
-        soundness.flaw(now, *attempt.next, 0.0, 0.0, StepBound::Box);
+    const StepFlaw flaw = soundness.flaw(now, *attempt.next, 0.0, 0.0, StepBound::Box);
     if (flaw == StepFlaw::None) {
       return attempt;
     }
