@@ -114,14 +114,14 @@ std::optional<std::vector<Vec3>> solved(const Eigen::SparseMatrix<double>& L, No
 StepSolver::StepSolver(const TriMesh& start, const EvenShares& shares)
     : shares_(shares), laplacian_(start.positions.size(), start.triangles) {}
 
-StepSolver::Intrinsic& StepSolver::intrinsic_of(const TriMesh& now, const LaplacianLimits& limits) {
+IntrinsicSystem& StepSolver::intrinsic_of(const TriMesh& now, const LaplacianLimits& limits) {
   if (!intrinsic_ || intrinsic_->positions != now.positions || intrinsic_->limits != limits) {
     intrinsic_.emplace();
     intrinsic_->positions = now.positions;
     intrinsic_->limits = limits;
-    intrinsic_->L = intrinsic_laplacian(now.positions, now.triangles, limits);
-    if (NormalMatrix::fits(intrinsic_->L)) {
-      intrinsic_->normal.emplace(intrinsic_->L);
+    intrinsic_->laplacian = intrinsic_laplacian(now.positions, now.triangles, limits);
+    if (NormalMatrix::fits(intrinsic_->laplacian)) {
+      intrinsic_->normal.emplace(intrinsic_->laplacian);
     }
   }
   return *intrinsic_;
@@ -143,9 +143,9 @@ std::optional<std::vector<Vec3>> StepSolver::solve(const TriMesh& now, double W_
   }
   const LaplacianLimits limits = limits_of(options, variant.regularisation);
   if (variant.intrinsic) {
-    Intrinsic& own = intrinsic_of(now, limits);
-    return own.normal ? solved(own.L, *own.normal, own.system, now.positions, std::move(rows),
-                               std::move(held), variant.regularisation, run)
+    IntrinsicSystem& own = intrinsic_of(now, limits);
+    return own.normal ? solved(own.laplacian, *own.normal, own.solver, now.positions,
+                               std::move(rows), std::move(held), variant.regularisation, run)
                       : std::nullopt;
   }
   const Eigen::SparseMatrix<double>& L = laplacian_.assemble(now.positions, limits);

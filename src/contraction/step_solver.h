@@ -24,6 +24,16 @@ struct StepVariant {
   double share = 1.0;               ///< Of W_L.
 };
 
+/// The equations by the intrinsic triangulation of a surface, whose pattern is another one at each step; ways to
+/// take the same step differ in their pull alone.
+struct IntrinsicSystem {
+  std::vector<Vec3> positions{};
+  LaplacianLimits limits{};
+  Eigen::SparseMatrix<double> laplacian{};
+  std::optional<NormalMatrix> normal{};  ///< None if it does not fit.
+  PositionSolver solver{};
+};
+
 /// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
 /// What follows from the triangles alone is found once, and kept for other contractions of the same surface.
 class StepSolver {
@@ -39,23 +49,13 @@ class StepSolver {
                                          const StepVariant& variant, const RunContext& run);
 
  private:
-  /// The weights of the intrinsic triangulation of a surface, whose pattern is another one at each step; ways
-  /// to take the same step differ in their pull alone.
-  struct Intrinsic {
-    std::vector<Vec3> positions{};
-    LaplacianLimits limits{};
-    Eigen::SparseMatrix<double> L{};
-    std::optional<NormalMatrix> normal{};  ///< None if it does not fit.
-    PositionSolver system{};
-  };
-
-  Intrinsic& intrinsic_of(const TriMesh& now, const LaplacianLimits& limits);
+  IntrinsicSystem& intrinsic_of(const TriMesh& now, const LaplacianLimits& limits);
 
   const EvenShares& shares_;
   LaplacianAssembler laplacian_;
   std::optional<NormalMatrix> normal_{};
   PositionSolver system_{};
-  std::optional<Intrinsic> intrinsic_{};
+  std::optional<IntrinsicSystem> intrinsic_{};
 };
 
 }  // namespace vantage
