@@ -44,6 +44,7 @@ TEST(PointContraction, RunsNoNoisyLineToAPoint) {
   for (const int count : {24, 30, 40, 60, 80, 200}) {
     for (const double width : {1e-5, 1e-3, 0.01, 0.03}) {
       std::vector<Vec3> points;
+      points.reserve(static_cast<std::size_t>(count));
       for (int i = 0; i < count; ++i) {
         points.emplace_back(10.0 * i / count, width * noise(i, 0.0), width * noise(i, 1.0));
       }
