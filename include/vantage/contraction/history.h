@@ -89,8 +89,8 @@ struct SecondMesh {
   /// Points of the surface, next to each of its vertices, at the levels of the first contraction.
   std::vector<std::vector<Vec3>> here{};
   std::vector<std::vector<Vec3>> there{};  ///< The same points by the second contraction.
-  std::vector<Remeshing>
-      remeshing{};  ///< Of each component; agreement tells nothing but of Coarser ones.
+  /// Of each component; agreement tells nothing but of Coarser ones.
+  std::vector<Remeshing> remeshing{};
 };
 
 /// Positions of every vertex at every level.
