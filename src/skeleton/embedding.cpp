@@ -127,8 +127,7 @@ class Ends {
   std::vector<std::uint32_t> stands_for_{};  ///< Of each node; itself if it is left.
   std::vector<std::size_t> end_at_{};        ///< Of each node: the end that it is the last of.
   std::vector<End> ends_{};                  ///< By ascending tip.
-  std::priority_queue<Short>
-      shorter_{};  ///< Than their junctions are thick; some have grown since.
+  std::priority_queue<Short> shorter_{};     ///< Ends; some have grown since.
 };
 
 /// Radii in which nodes that stand for no vertex have the mean of their neighbours, ring by ring.
