@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs clang-tidy 14 over all sources, or with --changed over those of the last 20 commits:
-# over 4 of them at most, spread evenly.
+# over 8 of them at most, spread evenly.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mapfile -t files < <(
@@ -13,7 +13,7 @@ mapfile -t files < <(
 if ((${#files[@]} == 0)); then
   exit 0
 fi
-most=4
+most=8
 if [[ ${1:-} == --changed ]] && ((${#files[@]} > most)); then
   echo "clang-tidy: $most of the ${#files[@]} files that changed; scripts/check_tidy.sh takes all"
   for ((i = 0; i < most; ++i)); do some+=("${files[i * ${#files[@]} / most]}"); done

@@ -21,7 +21,7 @@ enum class StepFlaw {
 /// What bounds how far a step may reach.
 enum class StepBound {
   BoxAndSphere,  ///< Of a step as it is defined.
-  Box,           ///< Of one that was made more safely.
+  Box,           ///< Of one that was made more safely, and of clouds.
 };
 
 /// Tells sound steps from others, which are not to be kept [ours; the paper discards only steps that

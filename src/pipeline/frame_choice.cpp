@@ -22,15 +22,15 @@ constexpr double kSpeaksAgainst = 0.8;
 constexpr double kAllAlike = 0.99;
 
 /// How texts speak of who has the convention.
-struct Habit {
+struct HabitWords {
   const char* of = "of its format";
   const char* by = "by its format";
   const char* its = "its format's";
 };
 
-Habit habit_of_up(bool is_of_map) {
+HabitWords words_for_up(bool is_of_map) {
   constexpr const char* kByMap = "by its map coordinates";
-  return is_of_map ? Habit{"of map coordinates", kByMap, kByMap} : Habit{};
+  return is_of_map ? HabitWords{"of map coordinates", kByMap, kByMap} : HabitWords{};
 }
 
 std::string name_of(const Vec3& direction) {
@@ -90,7 +90,8 @@ std::string alike_text(const std::vector<Vec3>& alike) {
                        : " (" + names + (alike.size() == 1 ? " looks" : " look") + " the same)";
 }
 
-std::string summary_of(const DirectionChoice& choice, const std::string& word, const Habit& habit) {
+std::string summary_of(const DirectionChoice& choice, const std::string& word,
+                       const HabitWords& habit) {
   const std::string text = word + ": " + name_of(choice.direction);
   if (choice.source == "given") {
     return text + ", as given";
@@ -155,7 +156,7 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   choice.orientation = evidence_of(shape).find(request);
   const DirectionChoice& up = choice.orientation.up;
   choice.frame = {axis_nearest(up.direction), axis_nearest(choice.orientation.front.direction)};
-  const Habit habit = habit_of_up(choice.is_of_map);
+  const HabitWords habit = words_for_up(choice.is_of_map);
   for (const std::string& note :
        {note_on(up, "up", usual_up, habit.of, "", "--up"), note_on_front(choice, options)}) {
     if (!note.empty()) {
@@ -177,7 +178,7 @@ std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
                                        : "";
   std::string note =
       note_on(front, "front", up_vector(default_front(choice.frame.up)),
-              up.source == "format" && !choice.is_of_map ? Habit{}.of : "for this up", best,
+              up.source == "format" && !choice.is_of_map ? HabitWords{}.of : "for this up", best,
               up.source == "shape" ? "--up " + name_of(up.direction) + " --front" : "--front");
   if (!note.empty() || !is_behind) {
     return note;
@@ -189,7 +190,7 @@ std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
 }
 
 std::string frame_summary(const FrameChoice& choice) {
-  return summary_of(choice.orientation.up, "up", habit_of_up(choice.is_of_map)) + "; " +
+  return summary_of(choice.orientation.up, "up", words_for_up(choice.is_of_map)) + "; " +
          summary_of(choice.orientation.front, "front", {});
 }
 

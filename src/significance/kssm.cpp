@@ -109,8 +109,8 @@ Evidence evidence_of(const SecondMesh& second) {
 /// The weight of each level, by the correlation r of its displacements with those of the surface meshed
 /// anew: 0 up to r = least, 1 from r = (1 + least) / 2 on, linear between. Two meshes may agree by chance:
 /// r is taken with the largest variance of the difference at this level or an earlier one. What was not
-/// meshed anew has no say; if nothing was, levels count by the share of the area that has too few vertices
-/// for it, not by what no mesher could change. Level 0 has weight 1. [ours]
+/// meshed anew has no say. If nothing was, all later levels weigh alike: by the share of the area in
+/// components of too few vertices for another mesh. Level 0 has weight 1. [ours]
 std::vector<double> level_weights(const ContractionHistory& history, const CurveGraph& skeleton,
                                   const CurveGraph& other, double least, const RunContext& run) {
   std::vector<double> weights(history.levels.size(), 1.0);

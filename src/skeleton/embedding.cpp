@@ -127,7 +127,7 @@ class Ends {
   std::vector<std::uint32_t> stands_for_{};  ///< Of each node; itself if it is left.
   std::vector<std::size_t> end_at_{};        ///< Of each node: the end that it is the last of.
   std::vector<End> ends_{};                  ///< By ascending tip.
-  std::priority_queue<Short> shorter_{};     ///< Ends; some have grown since.
+  std::priority_queue<Short> shorter_{};     ///< To be cut, unless they have grown since.
 };
 
 /// Radii in which nodes that stand for no vertex have the mean of their neighbours, ring by ring.
@@ -213,8 +213,8 @@ CurveGraph without_merged(const CurveGraph& graph, std::vector<std::uint32_t> st
   }
   for (std::uint32_t& node : node_of_vertex) {
     if (node != Skeleton::kNone) {
-      // A junction may itself have become part of a longer end that was cut later. Ways that were gone are
-      // halved: such ends may hang one from the other by the thousand.
+      // A junction may itself have become part of a longer end that was cut later, that one's again, and so on
+      // a thousand times: each way that is gone is halved.
       while (stands_for[node] != node) {
         node = stands_for[node] = stands_for[stands_for[node]];
       }

@@ -69,6 +69,17 @@ TEST(FrameChoice, HeightIsUpInCoordinatesOfAMap) {
   EXPECT_EQ(choice_for(with_y_up(hills(in_utm)), ModelFormat::Stl).frame.up, UpAxis::Y);
 }
 
+TEST(FrameChoice, SaysThatMapCoordinatesAreWhyTheHeightIsUp) {
+  TriMesh ball = sphere(2);
+  for (Vec3& p : ball.positions) {
+    p += Vec3(5e5, 5e6, 0.0);
+  }
+  EXPECT_EQ(
+      frame_summary(choice_for(ball, ModelFormat::Obj)).rfind("up: z, by its map coordinates", 0),
+      0U)
+      << frame_summary(choice_for(ball, ModelFormat::Obj));
+}
+
 TEST(FrameChoice, OtherFarPlacesAreNoMaps) {
   for (const Vec3& corner : {Vec3(567840.5, 120.0, 80.0), Vec3(2e5, 3e5, 4e5),
                              Vec3(900.0, 900.0, 0.0), Vec3(0.0, 5e6, 0.0)}) {

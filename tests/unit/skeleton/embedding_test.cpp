@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -143,29 +144,42 @@ Pruned pruned_by_the_letter(const CurveGraph& graph, const std::vector<double>& 
   return result;
 }
 
+/// A graph to prune, and the radii of its nodes.
+struct Prunable {
+  CurveGraph graph{};
+  std::vector<double> radius{};
+};
+
+/// A tree on a grid, so that many of its ends are equally long, with a cycle on a stalk.
+/// \param reach how many nodes before it a node may hang from.
+Prunable random_tree(std::uint32_t reach, Pcg32& random) {
+  Prunable made;
+  auto& [graph, radius] = made;
+  const auto count = static_cast<std::uint32_t>(random.below(60) + 2);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    graph.nodes.emplace_back(static_cast<double>(random.below(4)),
+                             static_cast<double>(random.below(4)), 0.0);
+    radius.push_back(static_cast<double>(random.below(8)));
+    if (i > 0) {
+      const auto back = static_cast<std::uint32_t>(random.below(std::min(i, reach)));
+      graph.edges.push_back({i - 1 - back, i});
+    }
+  }
+  graph.edges.push_back({count - 1, count});
+  for (std::uint32_t i = count; i < count + 3; ++i) {
+    graph.nodes.emplace_back(0.5, 0.5, static_cast<double>(i));
+    radius.push_back(1.0);
+  }
+  for (const auto& [a, b] : {std::pair(0U, 1U), std::pair(1U, 2U), std::pair(0U, 2U)}) {
+    graph.edges.push_back({count + a, count + b});
+  }
+  return made;
+}
+
 TEST(PruneEnds, CutsWhatLookingAtAllEndsAnewWouldCut) {
   Pcg32 random(7);
   for (int trial = 0; trial < 200; ++trial) {
-    CurveGraph graph;
-    std::vector<double> radius;
-    const auto count = static_cast<std::uint32_t>(random.below(60) + 2);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      // On a grid, so that many ends are equally long.
-      graph.nodes.emplace_back(static_cast<double>(random.below(4)),
-                               static_cast<double>(random.below(4)), 0.0);
-      radius.push_back(static_cast<double>(random.below(8)));
-      if (i > 0) {
-        const auto to = static_cast<std::uint32_t>(
-            trial % 2 == 0 ? random.below(i) : i - 1 - random.below(std::min(i, 3U)));
-        graph.edges.push_back({to, i});
-      }
-    }
-    graph.edges.push_back({count - 1, count});  // a cycle on a stalk
-    for (std::uint32_t i = count; i < count + 3; ++i) {
-      graph.nodes.emplace_back(0.5, 0.5, static_cast<double>(i));
-      radius.push_back(1.0);
-      graph.edges.push_back({i == count + 2 ? count : i, i == count + 2 ? i : i + 1});
-    }
+    const auto [graph, radius] = random_tree(trial % 2 == 0 ? 60 : 3, random);
     const Pruned expected = pruned_by_the_letter(graph, radius);
     std::vector<std::uint32_t> node_of_vertex(graph.nodes.size());
     std::iota(node_of_vertex.begin(), node_of_vertex.end(), 0U);
