@@ -13,6 +13,8 @@ constexpr std::size_t kProxyEyes = 300;
 constexpr std::size_t kCoarseEyes = 2562;
 // A surface that cannot be decimated to this share of its vertices gains nothing by a copy. [ours]
 constexpr std::size_t kWorthwhile = 2;
+// So many times larger than the coarse copy was to become is large. [ours]
+constexpr std::size_t kSeveral = 4;
 
 /// The coarse copy, made from the proxy if there is one.
 CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
@@ -65,11 +67,10 @@ bool CoarseCopies::has_proxy() const {
 }
 
 bool CoarseCopies::is_sampled() const {
-  return !is_coarse() && coarse.of_vertex.size() > kLargeSurface;
+  return !is_coarse() && coarse.of_vertex.size() > kSeveral * kCoarseVertices;
 }
 
 int CoarseCopies::survey_level() const {
-  constexpr std::size_t kSeveral = 4;  // [ours]
   const bool remains_large = coarse.mesh.positions.size() > kSeveral * kCoarseVertices;
   return is_sampled() || (is_coarse() && remains_large) ? 3 : 4;
 }

@@ -43,7 +43,7 @@ struct CoarseCopies {
   /// Whether there is a proxy, and it is so much smaller too.
   [[nodiscard]] bool has_proxy() const;
 
-  /// Whether the surface is large, but cannot be made so much coarser.
+  /// Whether the surface is much larger than a coarse copy, but cannot be made so much coarser.
   [[nodiscard]] bool is_sampled() const;
 
   /// Icosahedron level of a survey: lower where a look costs ten times as much as at surfaces of one skin,

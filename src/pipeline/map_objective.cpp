@@ -59,7 +59,8 @@ void MapObjective::add_estimates(ViewObjective& objective) const {
   const CoarseCopies& copies = estimates_->copies();
   const bool is_by_area = scorer().faces() != nullptr;
   objective.survey_level = copies.survey_level();
-  if (!copies.is_sampled() && !is_by_area && !copies.has_proxy()) {
+  const bool is_large = copies.coarse.of_vertex.size() > CoarseCopies::kLargeSurface;
+  if (!(copies.is_sampled() && is_large) && !is_by_area && !copies.has_proxy()) {
     objective.starts = kManyStarts;
   }
   if (estimates_->are_sooner()) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -57,11 +58,10 @@ TEST(SurveySight, KnowsNoOtherDirectionsAndCameras) {
   EXPECT_FALSE(is_same(sight.camera(), other));
 }
 
-TEST(CoarseCopies, SurveysACopyThatRemainsLargeFromFewerDirections) {
-  // Each of so many icosahedra becomes a tetrahedron.
+/// So many copies in rows.
+TriMesh rows_of(const TriMesh& one, std::uint32_t count) {
   TriMesh many;
-  const TriMesh one = sphere(0);
-  for (std::uint32_t i = 0; i < CoarseCopies::kCoarseVertices + 1; ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     const auto first = static_cast<std::uint32_t>(many.positions.size());
     for (const Vec3& p : one.positions) {
       many.positions.emplace_back(p + 3.0 * Vec3(i % 10, i / 10 % 10, i / 100));
@@ -70,6 +70,30 @@ TEST(CoarseCopies, SurveysACopyThatRemainsLargeFromFewerDirections) {
       many.triangles.push_back({first + a, first + b, first + c});
     }
   }
+  return many;
+}
+
+TEST(CoarseCopies, SampleASurfaceOfPartsThatCannotBeMadeCoarser) {
+  // Tetrahedra have no vertex to lose.
+  const TriMesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                            {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  const auto copies_of_rows = [&](std::uint32_t count) {
+    const ShapeAnalysis shape = prepare_surface(model_of(rows_of(tetrahedron, count)));
+    return std::make_unique<const CoarseCopies>(shape);
+  };
+  const auto many = copies_of_rows(1100);
+  EXPECT_FALSE(many->is_coarse());
+  EXPECT_TRUE(many->is_sampled());
+  EXPECT_EQ(many->survey_level(), 3);
+  const auto few = copies_of_rows(400);
+  EXPECT_FALSE(few->is_coarse());
+  EXPECT_FALSE(few->is_sampled());
+  EXPECT_EQ(few->survey_level(), 4);
+}
+
+TEST(CoarseCopies, SurveysACopyThatRemainsLargeFromFewerDirections) {
+  // Each of so many icosahedra becomes a tetrahedron.
+  const TriMesh many = rows_of(sphere(0), CoarseCopies::kCoarseVertices + 1);
   const ShapeAnalysis large_shape = prepare_surface(model_of(many));
   const CoarseCopies large(large_shape);
   EXPECT_TRUE(large.is_coarse());
