@@ -21,9 +21,11 @@ constexpr long double kMargin = 1e-13L;
 /// −1, 0 (not sure) or 1: the sign of a · (b × c).
 int side(const Wide& a, const Wide& b, const Wide& c) {
   const long double volume = a.dot(b.cross(c));
-  const long double doubt =
-      kMargin * a.norm() * std::max(b.norm(), (b - c).norm()) * std::max(c.norm(), (b - c).norm());
-  if (std::abs(volume) <= doubt) {
+  const long double across = (b - c).squaredNorm();
+  const long double squared_doubt = kMargin * kMargin * a.squaredNorm() *
+                                    std::max(b.squaredNorm(), across) *
+                                    std::max(c.squaredNorm(), across);
+  if (volume * volume <= squared_doubt) {
     return 0;
   }
   return volume > 0 ? 1 : -1;
@@ -40,9 +42,13 @@ Seen blocks(const Face& face, const Wide& start, const Wide& to_eye, bool bounde
   const Wide a = face.corner[0] - start;
   const Wide b = face.corner[1] - start;
   const Wide c = face.corner[2] - start;
-  const std::array<int, 3> turn{side(to_eye, b, c), side(to_eye, c, a), side(to_eye, a, b)};
-  const auto [low, high] = std::minmax_element(turn.begin(), turn.end());
-  if (*low < 0 && *high > 0) {
+  const int first = side(to_eye, b, c);
+  const int second = side(to_eye, c, a);
+  if (first * second < 0) {
+    return Seen::No;  // whatever the third says
+  }
+  const auto [low, high] = std::minmax({first, second, side(to_eye, a, b)});
+  if (low < 0 && high > 0) {
     return Seen::No;
   }
   // The face's plane must have the start on one side and the eye on the other.
@@ -58,7 +64,7 @@ Seen blocks(const Face& face, const Wide& start, const Wide& to_eye, bool bounde
     return Seen::No;
   }
   const bool sure =
-      (*low > 0 || *high < 0) && std::abs(height) > doubt && std::abs(beyond) > slope_doubt;
+      (low > 0 || high < 0) && std::abs(height) > doubt && std::abs(beyond) > slope_doubt;
   return sure ? Seen::Yes : Seen::Exactly;
 }
 
@@ -171,7 +177,7 @@ struct Pictured {
   std::array<Wide, 3> corner{};
   std::array<Half, 3> sides{};
   Wide plane = Wide::Zero();  // nearness = plane · (x, y, 1)
-  long double low = 0, high = 0, left = 0, right = 0;
+  long double low = 0, high = 0;
   int turned = 0;
 };
 
@@ -193,13 +199,45 @@ Pictured pictured(const std::array<Wide, 3>& corner) {
   }
   const Wide normal = ab.cross(ac);
   face.plane = Wide(-normal.x(), -normal.y(), normal.dot(corner[0])) / normal.z();
-  std::tie(face.left, face.right) = std::minmax({corner[0].x(), corner[1].x(), corner[2].x()});
   std::tie(face.low, face.high) = std::minmax({corner[0].y(), corner[1].y(), corner[2].y()});
   return face;
 }
 
+/// A shadow that another face casts on one: the points of the picture in all its halves.
+using Shadow = std::vector<Half>;
+
+/// How far the point lies inside the half; negative outside.
+long double depth_in(const Half& half, long double x, long double y) {
+  return half.x * x + half.y * y - half.offset;
+}
+
+/// Whether all corners lie on the outer side of one of the halves, so that nothing between them is in all.
+bool lie_outside_one(const std::array<Wide, 3>& corners, const Shadow& shadow) {
+  return std::any_of(shadow.begin(), shadow.end(), [&](const Half& half) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Wide& c) { return depth_in(half, c.x(), c.y()) <= 0; });
+  });
+}
+
+/// Whether all corners, and so all between them, lie in each of the halves.
+bool lie_in_all(const std::array<Wide, 3>& corners, const Shadow& shadow) {
+  return std::all_of(shadow.begin(), shadow.end(), [&](const Half& half) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Wide& c) { return depth_in(half, c.x(), c.y()) >= 0; });
+  });
+}
+
+/// Whether the point is in all halves, or so near that rounding may have put it outside: where two lines
+/// meet that are almost parallel is not known well.
+bool is_in_or_near(const Shadow& halves, long double x, long double y) {
+  return std::all_of(halves.begin(), halves.end(), [&](const Half& half) {
+    const long double size = std::abs(half.x * x) + std::abs(half.y * y) + std::abs(half.offset);
+    return depth_in(half, x, y) >= -1e-9L * size;
+  });
+}
+
 /// The part of the line at height y that lies in all of them; empty if the first is not below.
-std::array<long double, 2> on_line(const std::vector<Half>& halves, long double y) {
+std::array<long double, 2> on_line(const Shadow& halves, long double y) {
   std::array<long double, 2> part{-1e30L, 1e30L};
   for (const Half& half : halves) {
     const long double rest = half.offset - half.y * y;
@@ -214,50 +252,100 @@ std::array<long double, 2> on_line(const std::vector<Half>& halves, long double 
   return part;
 }
 
-/// What none of the shadows hides of the face, all of them given by their halves.
-long double area_left(const Pictured& face, const std::vector<std::vector<Half>>& shadows) {
-  const std::vector<Half> own(face.sides.begin(), face.sides.end());
-  std::vector<Half> all = own;
-  for (const auto& shadow : shadows) {
-    all.insert(all.end(), shadow.begin(), shadow.end());
+/// Heights between which what is seen of the face's lines is linear: where two lines meet that bound
+/// the face or shadows, if that is in the face and in what they bound. Others would change nothing.
+std::vector<long double> heights_of_breaks(const Pictured& face,
+                                           const std::vector<Shadow>& shadows) {
+  std::vector<Shadow> bounded{Shadow(face.sides.begin(), face.sides.end())};
+  bounded.insert(bounded.end(), shadows.begin(), shadows.end());
+  std::vector<std::pair<Half, const Shadow*>> lines;
+  for (const Shadow& one : bounded) {
+    for (const Half& half : one) {
+      lines.emplace_back(half, &one);
+    }
   }
-  // Between heights where two lines meet, what is seen of a line is linear in its height.
   std::vector<long double> heights{face.low, face.high};
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto& [a, of_a] = lines[i];
     for (std::size_t j = 0; j < i; ++j) {
-      const long double det = all[i].x * all[j].y - all[j].x * all[i].y;
-      if (det != 0) {
-        const long double y = (all[i].x * all[j].offset - all[j].x * all[i].offset) / det;
-        if (y > face.low && y < face.high) {
-          heights.push_back(y);
-        }
+      const auto& [b, of_b] = lines[j];
+      const long double det = a.x * b.y - b.x * a.y;
+      if (det == 0) {
+        continue;
+      }
+      const long double y = (a.x * b.offset - b.x * a.offset) / det;
+      const long double x = (a.offset * b.y - b.offset * a.y) / det;
+      if (y > face.low && y < face.high && is_in_or_near(*of_a, x, y) &&
+          is_in_or_near(*of_b, x, y) && is_in_or_near(bounded.front(), x, y)) {
+        heights.push_back(y);
       }
     }
   }
   std::sort(heights.begin(), heights.end());
-  long double area = 0;
+  return heights;
+}
+
+/// How much of the line at height y across the face none of the shadows hides.
+long double length_left(const Pictured& face, const std::vector<Shadow>& shadows, long double y) {
+  const auto [left, right] = on_line({face.sides.begin(), face.sides.end()}, y);
   std::vector<std::array<long double, 2>> hidden;
+  for (const Shadow& shadow : shadows) {
+    const auto part = on_line(shadow, y);
+    if (part[1] > part[0]) {
+      hidden.push_back(part);
+    }
+  }
+  std::sort(hidden.begin(), hidden.end());
+  long double from = left;
+  long double seen = 0;
+  for (const auto& part : hidden) {
+    seen += std::max(0.0L, std::min(part[0], right) - from);
+    from = std::max(from, part[1]);
+  }
+  return seen + std::max(0.0L, right - from);
+}
+
+/// What none of the shadows hides of the face.
+long double area_left(const Pictured& face, const std::vector<Shadow>& shadows) {
+  const std::vector<long double> heights = heights_of_breaks(face, shadows);
+  long double area = 0;
   for (std::size_t k = 1; k < heights.size(); ++k) {
-    const long double y = (heights[k - 1] + heights[k]) / 2;
-    const auto [left, right] = on_line(own, y);
-    hidden.clear();
-    for (const auto& shadow : shadows) {
-      const auto part = on_line(shadow, y);
-      if (part[1] > part[0]) {
-        hidden.push_back(part);
-      }
+    const long double step = heights[k] - heights[k - 1];
+    if (step > 0) {
+      area += step * length_left(face, shadows, (heights[k - 1] + heights[k]) / 2);
     }
-    std::sort(hidden.begin(), hidden.end());
-    long double from = left;
-    long double seen = 0;
-    for (const auto& part : hidden) {
-      seen += std::max(0.0L, std::min(part[0], right) - from);
-      from = std::max(from, part[1]);
-    }
-    seen += std::max(0.0L, right - from);
-    area += seen * (heights[k] - heights[k - 1]);
   }
   return area;
+}
+
+/// Where the other face lies before the face: nowhere, an empty list, if no part of them does.
+Shadow shadow_on(const Pictured& face, const Pictured& other) {
+  const Shadow own(face.sides.begin(), face.sides.end());
+  Shadow shadow(other.sides.begin(), other.sides.end());
+  const Wide nearer = other.plane - face.plane;
+  if (other.turned == 0 || nearer.norm() <= kMargin * (other.plane.norm() + face.plane.norm())) {
+    return {};  // seen edge-on, or in one plane
+  }
+  shadow.push_back({nearer.x(), nearer.y(), -nearer.z()});
+  const bool is_apart = lie_outside_one(other.corner, own) || lie_outside_one(face.corner, shadow);
+  return is_apart ? Shadow{} : shadow;
+}
+
+/// What is seen of one of the faces in the picture.
+long double area_seen(const std::vector<Pictured>& faces, std::size_t f) {
+  const Pictured& face = faces[f];
+  std::vector<Shadow> shadows;
+  for (std::size_t g = 0; g < faces.size(); ++g) {
+    Shadow shadow = g == f ? Shadow{} : shadow_on(face, faces[g]);
+    if (shadow.empty()) {
+      continue;
+    }
+    if (lie_in_all(face.corner, shadow)) {
+      return 0;
+    }
+    shadows.push_back(std::move(shadow));
+  }
+  return area_left(face, shadows);
 }
 
 }  // namespace
@@ -288,22 +376,7 @@ std::vector<double> brute_force_areas(const TriMesh& mesh, FaceSides sides, cons
     if (face.turned == 0 || (face.turned == 2 && sides == FaceSides::Front)) {
       continue;
     }
-    std::vector<std::vector<Half>> shadows;
-    for (std::size_t g = 0; g < faces.size(); ++g) {
-      const Pictured& other = faces[g];
-      if (g == f || other.turned == 0 || !(other.low < face.high) || !(face.low < other.high) ||
-          !(other.left < face.right) || !(face.left < other.right)) {
-        continue;
-      }
-      const Wide nearer = other.plane - face.plane;
-      if (nearer.norm() <= kMargin * (other.plane.norm() + face.plane.norm())) {
-        continue;  // in one plane
-      }
-      std::vector<Half> shadow(other.sides.begin(), other.sides.end());
-      shadow.push_back({nearer.x(), nearer.y(), -nearer.z()});
-      shadows.push_back(std::move(shadow));
-    }
-    areas[f] = static_cast<double>(distance * distance * area_left(face, shadows));
+    areas[f] = static_cast<double>(distance * distance * area_seen(faces, f));
   }
   return areas;
 }
