@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/IOSystem.hpp>
@@ -219,11 +221,29 @@ void send_nodes(const aiScene& scene, StreamWriter& out) {
   }
 }
 
-/// Assimp turns most formats so that y is up; an FBX stays as it is and says which axis that is.
+/// Formats in which z is up and that Assimp leaves so. Others have y up, or it turns them.
+constexpr std::array<std::string_view, 8> kUpright = {"blend", "cob", "scn", "smd",
+                                                      "amf",   "hmp", "q3o", "q3s"};
+
+/// Whether an OpenGEX file says that y is up; else it is z, by its specification.
+bool is_y_up_in_ogex(std::string_view bytes) {
+  constexpr std::string_view kKey = "\"up\"";
+  const std::size_t key = bytes.find(kKey);
+  const std::size_t value =
+      key == std::string_view::npos ? key : bytes.find('"', key + kKey.size());
+  return value != std::string_view::npos && bytes.substr(value).starts_with("\"y\"");
+}
+
+/// FBX and OpenGEX stay as they are and say which axis is up.
 StreamHead head_of(const aiScene& scene, std::string_view extension, std::string_view bytes) {
   StreamHead head;
-  head.up = 1;
-  if (extension == "dae") {
+  head.up = std::find(kUpright.begin(), kUpright.end(), extension) == kUpright.end() ? 1 : 2;
+  if (extension == "blend") {
+    head.up_is_stated = true;
+  } else if (extension == "ogex") {
+    head.up = is_y_up_in_ogex(bytes) ? 1 : 2;
+    head.up_is_stated = true;
+  } else if (extension == "dae") {
     head.unit_m = 1.0;
     head.up_is_stated = bytes.find("<up_axis>") != std::string_view::npos;
   } else if (extension == "ifc") {

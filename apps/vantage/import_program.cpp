@@ -24,6 +24,7 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/import_advice.h"
 
 #include "batch/descriptor.h"
 #include "batch/program_call.h"
@@ -226,7 +227,9 @@ class ImportProcess {
     }
     fail("cannot be read as " + title() + ": the reader broke down on it (" +
          batch::how_it_ended(status) +
-         "); the file is damaged, or needs more memory than is allowed");
+         "), because of a fault of its own, or because the file is damaged or needs more memory "
+         "than is allowed; " +
+         std::string(import_advice(request_.format)));
   }
 
   const ImportRequest& request_;
@@ -246,12 +249,9 @@ bool is_program(const fs::path& path) {
 /// What to do without it.
 [[noreturn]] void refuse(const ImportRequest& request) {
   const std::string title(request.format.title);
-  throw FormatError(
-      request.name, "",
-      "is a " + title + " file; install vantage-import to read " + title + ", or convert it to " +
-          (request.format.solid ? "STL or OBJ first, for example with FreeCAD or gmsh"
-                                : "OBJ, PLY or GLB first, for example with meshlab or "
-                                  "Blender"));
+  throw FormatError(request.name, "",
+                    "is a " + title + " file; install vantage-import to read " + title + ", or " +
+                        std::string(import_advice(request.format)));
 }
 
 }  // namespace

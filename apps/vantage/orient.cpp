@@ -162,9 +162,9 @@ struct OrientCommand {
           "-o", "must end in .ply: the model is turned by other than quarter turns");
     }
     if (!in_place || suffix_of(file) != own) {
-      throw CLI::ValidationError("-o", in_place
-                                           ? "must end in " + own + ", as the model is, or in .ply"
-                                           : "must end in .ply: a " + own + " is not written");
+      throw CLI::ValidationError(
+          "-o", in_place ? "must end in " + own + ", as the model is, or in .ply"
+                         : "must end in .ply: of a " + own + ", nothing else is written");
     }
     if (model == "-") {
       throw IoError(model, "can be turned to a .ply only; name the file, or write a .ply");

@@ -6,6 +6,9 @@
 #include <string>
 
 #include "vantage/core/error.h"
+#include "vantage/io/import_advice.h"
+
+#include "io/byte_cursor.h"
 
 namespace vantage {
 namespace {
@@ -15,6 +18,7 @@ constexpr std::string_view kConvertMesh =
     "; convert it to OBJ, PLY or GLB first, for example with meshlab or Blender";
 constexpr std::string_view kConvertSolid =
     "; convert it to STL or OBJ first, for example with FreeCAD or gmsh";
+constexpr std::string_view kXml = "<?xml";
 constexpr std::string_view kNoModel = ", not a model";
 
 /// How a format that is not read gives itself away, and what to do about it.
@@ -60,7 +64,7 @@ constexpr std::array<ForeignMagic, 35> kForeignMagics = {{
     {"PXR-USDC"sv, "is a USD file", kConvertMesh, ""},
     {"#VRML"sv, "is a VRML file", kConvertMesh, ""},
     {"# vtk DataFile"sv, "is a VTK file", kConvertMesh, ""},
-    {"<?xml"sv, "is an XML file (COLLADA and X3D files are)", kConvertMesh, ""},
+    {kXml, "is an XML file (COLLADA and X3D files are)", kConvertMesh, ""},
     {"\x89PNG"sv, "is a PNG picture", kNoModel, ""},
     {"\xFF\xD8\xFF"sv, "is a JPEG picture", kNoModel, ""},
     {"GIF8"sv, "is a GIF picture", kNoModel, ""},
@@ -69,39 +73,26 @@ constexpr std::array<ForeignMagic, 35> kForeignMagics = {{
     {"\xFE\xFF"sv, "is UTF-16 text; convert it first, with ", "iconv -f UTF-16 -t UTF-8", ""},
 }};
 
+/// Those of kImportFormats are known by it too.
 struct ForeignExtension {
   std::string_view extension;
   std::string_view what;
   std::string_view remedy;
 };
 
-constexpr std::array<ForeignExtension, 26> kForeignExtensions = {{
-    {"3ds", "3DS", kConvertMesh},
-    {"ac", "AC3D", kConvertMesh},
-    {"amf", "AMF", kConvertMesh},
-    {"blend", "Blender", kConvertMesh},
-    {"brep", "BREP", kConvertSolid},
+constexpr std::array<ForeignExtension, 12> kForeignExtensions = {{
     {"ctm", "OpenCTM", kConvertMesh},
-    {"dae", "COLLADA", kConvertMesh},
     {"drc", "Draco", "; convert it to PLY first, with draco_decoder"},
-    {"dxf", "DXF", kConvertMesh},
-    {"fbx", "FBX", kConvertMesh},
-    {"iges", "IGES", kConvertSolid},
-    {"igs", "IGES", kConvertSolid},
     {"las", "LAS", kConvertMesh},
     {"laz", "LAZ", kConvertMesh},
-    {"lwo", "LightWave", kConvertMesh},
     {"max", "3ds Max", kConvertMesh},
     {"mesh", "Medit", kConvertMesh},
     {"msh", "Gmsh", kConvertMesh},
     {"skp", "SketchUp", kConvertMesh},
-    {"step", "STEP", kConvertSolid},
-    {"stp", "STEP", kConvertSolid},
     {"usd", "USD", kConvertMesh},
     {"usdz", "USDZ", kConvertMesh},
     {"vtk", "VTK", kConvertMesh},
     {"wrl", "VRML", kConvertMesh},
-    {"x3d", "X3D", kConvertMesh},
 }};
 
 /// How much of a file says which of several formats with one beginning it is.
@@ -109,6 +100,19 @@ constexpr std::size_t kTellingBytes = 8192;
 
 bool says(std::string_view bytes, std::string_view word) {
   return bytes.substr(0, kTellingBytes).find(word) != std::string_view::npos;
+}
+
+/// 3DS: a chunk that holds all others (its mark, its size), and the first of these.
+bool is_3ds(std::string_view bytes) {
+  constexpr std::size_t kHead = 6;
+  if (!bytes.starts_with("MM") || bytes.size() < 2 * kHead) {
+    return false;
+  }
+  const auto size = decode<std::uint32_t>(bytes.data() + 2, ByteOrder::Little);
+  const auto first = decode<std::uint16_t>(bytes.data() + kHead, ByteOrder::Little);
+  constexpr std::uint16_t kVersion = 0x0002;
+  constexpr std::uint16_t kScene = 0x3D3D;
+  return size >= 2 * kHead && size <= bytes.size() && (first == kVersion || first == kScene);
 }
 
 /// What XML files are, by the names of their first elements.
@@ -124,7 +128,7 @@ const ImportFormat* import_of_xml(std::string_view bytes, std::string_view exten
 
 const ImportFormat* import_of(const ForeignMagic& foreign, std::string_view bytes,
                               std::string_view extension) {
-  if (foreign.magic == "<?xml") {
+  if (foreign.magic == kXml) {
     return import_of_xml(bytes, extension);
   }
   // Some formats may be packed whole, and their readers take text of either width.
@@ -158,6 +162,11 @@ const ImportFormat* check_foreign_bytes(std::string_view bytes, std::string_view
     if (format != nullptr && may_import) {
       return format;
     }
+    if (foreign.magic == kXml && says(bytes, "schemas.microsoft.com/3dmanufacturing/core")) {
+      throw FormatError(name, "",
+                        "is the model part of a 3MF without its package; export it as 3MF again, "
+                        "or pack it: as 3D/3dmodel.model in a ZIP archive that is named .3mf");
+    }
     throw FormatError(
         name, "",
         std::string(foreign.what) + std::string(foreign.remedy) + std::string(foreign.tool));
@@ -167,7 +176,8 @@ const ImportFormat* check_foreign_bytes(std::string_view bytes, std::string_view
   const bool iges =
       bytes.size() > kIgesSection + 8 && bytes[kIgesSection] == 'S' &&
       bytes.substr(kIgesSection + 1, 7).find_first_not_of(" 01") == std::string_view::npos;
-  return iges && may_import ? import_format("iges") : nullptr;
+  const std::string_view kind = iges ? "iges" : is_3ds(bytes) ? "3ds" : "";
+  return may_import ? import_format(kind) : nullptr;
 }
 
 const ImportFormat& check_foreign_extension(std::string_view extension, std::string_view name,
@@ -184,14 +194,14 @@ const ImportFormat& check_foreign_extension(std::string_view extension, std::str
         name, "", std::string(entry->what) + " files are not read" + std::string(entry->remedy));
   }
   if (format != nullptr) {
-    throw FormatError(name, "",
-                      std::string(format->title) + " files are not read" +
-                          std::string(format->solid ? kConvertSolid : kConvertMesh));
+    throw FormatError(
+        name, "",
+        std::string(format->title) + " files are not read; " + std::string(import_advice(*format)));
   }
   throw FormatError(
       name, "",
       "cannot tell what format this is; OBJ, OFF, PLY, STL, glTF, GLB, 3MF, PCD, XYZ, "
-      "PTS and PWN are read");
+      "PTS and PWN are read, and others by the ending of the file's name: save it with that");
 }
 
 }  // namespace vantage

@@ -212,6 +212,10 @@ void check_version(const Json& root, const ModelBuilder& builder) {
   const bool has_asset = asset != root.end() && asset->is_object();
   const auto version = has_asset ? asset->find("version") : asset;
   if (!has_asset || version == asset->end() || !version->is_string()) {
+    // Lists of 2.0 were objects in 1.0, keyed by names.
+    if (root.contains("accessors") && root["accessors"].is_object()) {
+      builder.fail("is glTF 1.0, only 2 is read; convert it with gltf-pipeline");
+    }
     builder.fail("the JSON has no asset.version, which every glTF has");
   }
   const auto& text = version->get_ref<const std::string&>();

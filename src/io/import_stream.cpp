@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vantage/core/error.h"
+#include "vantage/io/import_advice.h"
 
 #include "io/byte_cursor.h"
 #include "io/model_builder.h"
@@ -81,11 +82,11 @@ double share(double value, double otherwise) {
 
 class StreamReader {
  public:
-  StreamReader(std::string_view stream, std::string_view title, std::string_view name,
+  StreamReader(std::string_view stream, const ImportFormat& format, std::string_view name,
                const RunContext& run, const Surroundings& surroundings)
       : builder_(ModelFormat::Imported, name, run, 0),
         all_(stream),
-        title_(title),
+        format_(format),
         wants_appearance_(surroundings.options.appearance),
         loader_(surroundings, builder_),
         surroundings_(surroundings) {
@@ -134,7 +135,7 @@ class StreamReader {
       const bool of_points = record.number<std::uint32_t>() == 1;
       builder_.fail(too_many_faces(surroundings_.options.max_faces, of_points));
     } else if (tag == "fail") {
-      builder_.fail("cannot be read as " + std::string(title_) + ": " + one_line(record.rest()));
+      fail(one_line(record.rest()));
     } else if (tag == "done") {
       done_ = true;
       if (record.number<std::uint64_t>() != meshes_) {
@@ -143,6 +144,15 @@ class StreamReader {
     } else {
       builder_.fail("vantage-import is of another version than this program; install both anew");
     }
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    std::string problem = "cannot be read as " + std::string(format_.title) + ": " + reason;
+    // Blender changes its files with each version: many that are whole are not understood.
+    if (format_.name == "blend") {
+      problem += "; " + std::string(import_advice(format_));
+    }
+    builder_.fail(problem);
   }
 
   void read_head(RecordCursor& record) {
@@ -325,7 +335,7 @@ class StreamReader {
 
   ModelBuilder builder_;
   std::string_view all_;
-  std::string_view title_;
+  const ImportFormat& format_;
   bool wants_appearance_;
   TextureLoader loader_;
   const Surroundings& surroundings_;
@@ -370,9 +380,10 @@ std::vector<std::string> pictures_beside(std::string_view stream) {
   return pictures;
 }
 
-Model parse_import_stream(std::string_view stream, std::string_view title, std::string_view name,
-                          const RunContext& run, const Surroundings& surroundings) {
-  return StreamReader(stream, title, name, run, surroundings).read();
+Model parse_import_stream(std::string_view stream, const ImportFormat& format,
+                          std::string_view name, const RunContext& run,
+                          const Surroundings& surroundings) {
+  return StreamReader(stream, format, name, run, surroundings).read();
 }
 
 }  // namespace vantage

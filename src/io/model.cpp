@@ -46,7 +46,7 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
       case ModelFormat::Imported:
         return parse_import_stream(
             surroundings.options.importer({*detected.import_as, bytes, name}, run),
-            detected.import_as->title, name, run, surroundings);
+            *detected.import_as, name, run, surroundings);
       case ModelFormat::Gltf:
       case ModelFormat::Glb:
         break;

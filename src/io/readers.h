@@ -73,9 +73,10 @@ Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext
 Model parse_threemf(std::string_view bytes, std::string_view name, const RunContext& run,
                     const Surroundings& surroundings);
 
-/// What a ReadOptions::importer gave, see vantage/io/import_stream.h. \param title of the format.
-Model parse_import_stream(std::string_view stream, std::string_view title, std::string_view name,
-                          const RunContext& run, const Surroundings& surroundings);
+/// What a ReadOptions::importer gave, see vantage/io/import_stream.h.
+Model parse_import_stream(std::string_view stream, const ImportFormat& format,
+                          std::string_view name, const RunContext& run,
+                          const Surroundings& surroundings);
 
 /// What is wrong with a model of more than ReadOptions::max_faces, for a message.
 inline std::string too_many_faces(std::size_t most, bool is_cloud = false) {

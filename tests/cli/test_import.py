@@ -5,14 +5,18 @@ import os
 import pathlib
 import shutil
 import stat
+import struct
 import subprocess
 import unittest
 
 import program
+from blend_file import blend_file
 from program import PROGRAM, ProgramTest
 from program import contract_quickly as setUpModule
 
 DATA = pathlib.Path(__file__).resolve().parents[1] / "data/import"
+CORNERS = ((0, 0, 0), (4, 0, 0), (0, 3, 0), (0, 0, 2))
+SIDES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
 IMPORT = pathlib.Path(PROGRAM).parent / "vantage-import"
 
 
@@ -65,6 +69,23 @@ class Import(ProgramTest):
         self.assertEqual([part["name"] for part in info["parts"]], ["foot", "pole"])
         self.assertEqual(info["box"]["high"][2], 32)
 
+    def test_z_is_up_where_assimp_leaves_it_so(self):
+        ogex = """GeometryNode $a {{ObjectRef {{ref {{$b}}}}}}
+            GeometryObject $b {{Mesh (primitive = "triangles") {{VertexArray (attrib = "position") {{float[3] {{{}}}}}
+            IndexArray {{unsigned_int32[3] {{{}}}}}}}}}""".format(
+                *(", ".join(str(row).replace("(", "{").replace(")", "}") for row in rows) for rows in (CORNERS, SIDES)))
+        amf = '<?xml version="1.0"?><amf><object id="0"><mesh><vertices>{}</vertices><volume>{}</volume></mesh></object></amf>'.format(
+            "".join("<vertex><coordinates><x>{}</x><y>{}</y><z>{}</z></coordinates></vertex>".format(*c) for c in CORNERS),
+            "".join("<triangle><v1>{}</v1><v2>{}</v2><v3>{}</v3></triangle>".format(*s) for s in SIDES))
+        for name, content, up in (("a.blend", blend_file(CORNERS, SIDES), "z"), ("a.amf", amf, "z"), ("a.ogex", ogex, "z"),
+                                  ("y.ogex", 'Metric (key = "up") {string {"y"}}\n' + ogex, "y")):
+            info = self.info(self.write(name, content))
+            self.assertEqual((info["up"], info["box"]["high"], info["welded"]["closed"]), (up, [4, 3, 2], True), name)
+        # Blender knows no other up, and a shape that looks better otherwise changes nothing.
+        self.vantage("view", "a.blend", "-o", "v", "--no-images")
+        view = json.loads((self.dir / "v/view.json").read_text())
+        self.assertEqual((view["up"], view["up_source"], view["up_confidence"]), ("z", "format", 1))
+
     def test_vertices_come_in_the_order_of_the_file(self):
         self.vantage("map", DATA / "wedge.x", "-o", "m.ply")
         _, vertices, _ = program.read_ply(self.dir / "m.ply")
@@ -100,6 +121,17 @@ class Import(ProgramTest):
     def test_standard_input_is_known_by_its_bytes(self):
         info = json.loads(self.vantage("info", "--json", "-", stdin=(DATA / "stand.step").read_bytes()).out)
         self.assertEqual((info["format"], len(info["parts"])), ("step", 3))
+        # Chunks of 3DS: all, its scene, an object, its triangles; their corners, their faces.
+        corners, faces = struct.pack("<H12f", 4, *sum(CORNERS, ())), struct.pack("<H", 4) + b"".join(
+            struct.pack("<4H", *side, 7) for side in SIDES)
+        chunks = b""
+        for mark, before in ((0x4100, b""), (0x4000, b"body\0"), (0x3D3D, b""), (0x4D4D, b"")):
+            if not chunks:
+                chunks = b"".join(struct.pack("<HI", *head) + body
+                                  for head, body in (((0x4110, 6 + len(corners)), corners), ((0x4120, 6 + len(faces)), faces)))
+            chunks = struct.pack("<HI", mark, 6 + len(before) + len(chunks)) + before + chunks
+        info = json.loads(self.vantage("info", "--json", "-", stdin=chunks).out)
+        self.assertEqual((info["format"], info["faces"], info["up"]), ("3ds", 4, "y"))
 
     def test_version_says_what_is_there_and_what_confines_it(self):
         # The kernel's word on filters of system calls, for any process.
@@ -134,6 +166,13 @@ class Broken(ProgramTest):
     def test_a_crash_inside_is_one_sentence(self):
         copy = self.stand_in("kill -SEGV $$")
         self.fails(DATA / "lamp.fbx", program_path=copy, says="the reader broke down on it (signal 11")
+        self.write("a.blend", blend_file(CORNERS, SIDES))
+        self.fails("a.blend", program_path=copy, says="because of a fault of its own, or because the file is damaged or needs "
+                   "more memory than is allowed; export it as GLB from Blender")
+
+    def test_what_to_do_with_a_blender_file_that_is_not_understood(self):
+        self.write("a.blend", blend_file(CORNERS, ()))
+        self.fails("a.blend", says="at least one object with no parent; export it as GLB from Blender\n")
 
     def test_lies_of_the_reader_are_not_believed(self):
         copy = self.stand_in("printf 'VNTGIMP1mesh\\377\\377\\377\\377\\377\\377\\377\\377'")

@@ -263,6 +263,11 @@ class OffTheAxes(ProgramTest):
         done = self.vantage("orient", "a.obj", "--up", "any", "-o", "up.obj", exit_code=2)
         self.assertIn("must end in .ply", done.err)
 
+    def test_of_an_off_only_a_ply_is_written(self):
+        self.write("a.off", "OFF\n4 4 0\n0 0 0\n4 0 0\n0 3 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        done = self.vantage("orient", "a.off", "--up", "z", "-o", "up.obj", exit_code=2)
+        self.assertIn("-o: must end in .ply: of a .off, nothing else is written", done.err)
+
 
 class Sidecars(ProgramTest):
     def up_and_front(self, *arguments):

@@ -175,6 +175,8 @@ TEST(Gltf, RefusesBrokenContainers) {
   EXPECT_THAT(error_text("{\"asset\":", "a.gltf"), HasSubstr("the JSON is not well formed"));
   EXPECT_THAT(error_text("[]", "a.gltf"), HasSubstr("the JSON is not an object"));
   EXPECT_THAT(error_text("{}", "a.gltf"), HasSubstr("no asset.version"));
+  EXPECT_THAT(error_text(R"({"accessors": {"a": {}}, "asset": {}})", "a.gltf"),
+              HasSubstr("is glTF 1.0, only 2 is read; convert it with gltf-pipeline"));
   EXPECT_THAT(error_text(std::string(100000, '['), "a.gltf"), HasSubstr("nested deeper"));
 }
 

@@ -6,6 +6,8 @@
 
 #include "vantage/core/error.h"
 
+#include "io/foreign_format.h"
+
 #include "unit/io/error_text.h"
 
 namespace vantage::test {
@@ -73,6 +75,10 @@ TEST(ModelFormat, RefusesForeignFormatsByTheirBytes) {
   EXPECT_THAT(error_text("PK\x03\x04", "a.usdz"), HasSubstr("is a ZIP archive"));
   EXPECT_THAT(error_text("DRACO\x02", "a"), HasSubstr("draco_decoder"));
   EXPECT_THAT(error_text("<?xml version", "a.dae"), HasSubstr("COLLADA"));
+  EXPECT_THAT(error_text("<?xml version=\"1.0\"?>\n<model xmlns=\""
+                         "http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">",
+                         "a.3mf"),
+              HasSubstr("is the model part of a 3MF without its package; export it as 3MF again"));
   EXPECT_THAT(error_text("\x89PNG\r\n", "a.ply"), HasSubstr("is a PNG picture, not a model"));
   EXPECT_THAT(error_text("ISO-10303-21;", "a.step"), HasSubstr("convert it to STL or OBJ"));
 }
@@ -84,6 +90,20 @@ TEST(ModelFormat, RefusesForeignFormatsByTheirExtension) {
 
 TEST(ModelFormat, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(error_text("hello", "a.what"), HasSubstr("cannot tell what format this is"));
+  EXPECT_THAT(error_text("hello", "-"), HasSubstr("by the ending of the file's name: save it"));
+}
+
+TEST(ModelFormat, KnowsA3dsByItsFirstChunks) {
+  using namespace std::string_literals;
+  const auto is_3ds = [](const std::string& bytes) {
+    const ImportFormat* const found = check_foreign_bytes(bytes, "", "-", true);
+    return found != nullptr && found->name == "3ds";
+  };
+  EXPECT_TRUE(is_3ds("MM\x10\0\0\0\x02\0\x0A\0\0\0\x03\0\0\0"s));
+  EXPECT_TRUE(is_3ds("MM\x0C\0\0\0==\x06\0\0\0"s));
+  EXPECT_FALSE(is_3ds("MM\x11\0\0\0\x02\0\x0A\0\0\0\x03\0\0\0"s));                 // cut short
+  EXPECT_FALSE(is_3ds("MM\0\x2A\0\0\0\x08\0\0\0\0"s + std::string(20000, '\0')));  // TIFF
+  EXPECT_FALSE(is_3ds("MM"));
 }
 
 TEST(ModelFormat, RefusesBytesThatContradictAFormatWithASignature) {
