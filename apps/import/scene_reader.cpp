@@ -238,7 +238,7 @@ bool is_y_up_in_ogex(std::string_view bytes) {
 StreamHead head_of(const aiScene& scene, std::string_view extension, std::string_view bytes) {
   StreamHead head;
   head.up = std::find(kUpright.begin(), kUpright.end(), extension) == kUpright.end() ? 1 : 2;
-  if (extension == "blend") {
+  if (extension == "blend") {  // Blender knows no other up
     head.up_is_stated = true;
   } else if (extension == "ogex") {
     head.up = is_y_up_in_ogex(bytes) ? 1 : 2;

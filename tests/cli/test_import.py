@@ -121,16 +121,17 @@ class Import(ProgramTest):
     def test_standard_input_is_known_by_its_bytes(self):
         info = json.loads(self.vantage("info", "--json", "-", stdin=(DATA / "stand.step").read_bytes()).out)
         self.assertEqual((info["format"], len(info["parts"])), ("step", 3))
-        # Chunks of 3DS: all, its scene, an object, its triangles; their corners, their faces.
-        corners, faces = struct.pack("<H12f", 4, *sum(CORNERS, ())), struct.pack("<H", 4) + b"".join(
-            struct.pack("<4H", *side, 7) for side in SIDES)
-        chunks = b""
-        for mark, before in ((0x4100, b""), (0x4000, b"body\0"), (0x3D3D, b""), (0x4D4D, b"")):
-            if not chunks:
-                chunks = b"".join(struct.pack("<HI", *head) + body
-                                  for head, body in (((0x4110, 6 + len(corners)), corners), ((0x4120, 6 + len(faces)), faces)))
-            chunks = struct.pack("<HI", mark, 6 + len(before) + len(chunks)) + before + chunks
-        info = json.loads(self.vantage("info", "--json", "-", stdin=chunks).out)
+
+    def test_standard_input_may_be_a_3ds(self):
+
+        def chunk(mark, *parts):
+            content = b"".join(parts)
+            return struct.pack("<HI", mark, 6 + len(content)) + content
+
+        corners = chunk(0x4110, struct.pack("<H12f", 4, *sum(CORNERS, ())))
+        faces = chunk(0x4120, struct.pack("<H", 4), *(struct.pack("<4H", *side, 7) for side in SIDES))
+        whole = chunk(0x4D4D, chunk(0x3D3D, chunk(0x4000, b"body\0", chunk(0x4100, corners, faces))))
+        info = json.loads(self.vantage("info", "--json", "-", stdin=whole).out)
         self.assertEqual((info["format"], info["faces"], info["up"]), ("3ds", 4, "y"))
 
     def test_version_says_what_is_there_and_what_confines_it(self):

@@ -7,7 +7,6 @@
 #include "vantage/core/error.h"
 
 #include "io/foreign_format.h"
-
 #include "unit/io/error_text.h"
 
 namespace vantage::test {
