@@ -222,8 +222,8 @@ void send_nodes(const aiScene& scene, StreamWriter& out) {
 }
 
 /// Formats in which z is up and that Assimp leaves so. Others have y up, or it turns them.
-constexpr std::array<std::string_view, 8> kUpright = {"blend", "cob", "scn", "smd",
-                                                      "amf",   "hmp", "q3o", "q3s"};
+constexpr std::array<std::string_view, 8> kZUp = {"blend", "cob", "scn", "smd",
+                                                  "amf",   "hmp", "q3o", "q3s"};
 
 /// Whether an OpenGEX file says that y is up; else it is z, by its specification.
 bool is_y_up_in_ogex(std::string_view bytes) {
@@ -237,7 +237,7 @@ bool is_y_up_in_ogex(std::string_view bytes) {
 /// FBX and OpenGEX stay as they are and say which axis is up.
 StreamHead head_of(const aiScene& scene, std::string_view extension, std::string_view bytes) {
   StreamHead head;
-  head.up = std::find(kUpright.begin(), kUpright.end(), extension) == kUpright.end() ? 1 : 2;
+  head.up = std::find(kZUp.begin(), kZUp.end(), extension) == kZUp.end() ? 1 : 2;
   if (extension == "blend") {  // Blender knows no other up
     head.up_is_stated = true;
   } else if (extension == "ogex") {

@@ -24,7 +24,7 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
-#include "vantage/io/import_advice.h"
+#include "vantage/io/import_stream.h"
 
 #include "batch/descriptor.h"
 #include "batch/program_call.h"

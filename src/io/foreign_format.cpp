@@ -6,7 +6,7 @@
 #include <string>
 
 #include "vantage/core/error.h"
-#include "vantage/io/import_advice.h"
+#include "vantage/io/import_stream.h"
 
 #include "io/byte_cursor.h"
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "vantage/core/error.h"
-#include "vantage/io/import_advice.h"
 
 #include "io/byte_cursor.h"
 #include "io/model_builder.h"

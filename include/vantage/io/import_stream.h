@@ -45,6 +45,14 @@ struct ImportFormat {
   bool solid;                  ///< Exact surfaces, to be tessellated.
 };
 
+/// What to do with a file of the format where it cannot be read, in a sentence.
+constexpr std::string_view import_advice(const ImportFormat& format) {
+  return format.name == "blend" ? "export it as GLB from Blender"
+         : format.solid
+             ? "convert it to STL or OBJ first, for example with FreeCAD or gmsh"
+             : "convert it to OBJ, PLY or GLB first, for example with meshlab or Blender";
+}
+
 /// All of them. What the library reads itself is not among them, nor are scenes that only name other
 /// files, which the program may not open.
 inline constexpr std::array<ImportFormat, 42> kImportFormats = {{

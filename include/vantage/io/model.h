@@ -63,7 +63,7 @@ struct Model {
   std::string imported_as{};              ///< Of an imported one: "step", "fbx", …
   double unit_m = 0.0;                    ///< Metres of one unit, of an imported one; 0: unknown.
   std::optional<Vec3> usual_up{};         ///< Of this file; unset: that of its format.
-  bool up_is_stated = false;              ///< `usual_up` is what the file itself says.
+  bool up_is_stated = false;  ///< `usual_up` is what the file says, or its format always is.
   /// By which `mesh` was turned after it was read: stand_along_axes().
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
 };
