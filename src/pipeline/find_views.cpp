@@ -76,25 +76,16 @@ void warn_of_coarse_epsilon(const SearchOptions& search, ViewReport& report) {
   }
 }
 
-/// Whether the best view shows the back of what has another front.
-bool is_from_behind(const Orientation& orientation, const ViewOptions& options,
-                    const ReportedView& best) {
-  constexpr double kBehind = -0.1;  // cosine
-  const DirectionChoice& front = orientation.front;
-  const bool looks_alike =
-      std::any_of(front.alike.begin(), front.alike.end(),
-                  [&](const Vec3& other) { return other.dot(front.direction) < -0.5; });
-  return objective_of(options) == Objective::People && !options.best_view && !looks_alike &&
-         best.direction.dot(front.direction) < kBehind;
-}
-
 /// The notes on the frame, where one on the front speaks of the best view, too.
 std::vector<std::string> frame_notes(const FrameChoice& choice, const ViewOptions& options,
                                      const ReportedView& best) {
   std::vector<std::string> notes = choice.notes;
-  if (is_from_behind(choice.orientation, options, best)) {
-    std::erase(notes, note_on_front(choice, options));
-    notes.push_back(note_on_front(choice, options, true));
+  const std::string before = note_on_front(choice, options);
+  const bool is_found = objective_of(options) == Objective::People && !options.best_view;
+  const std::string note = is_found ? note_on_front(choice, options, best.direction) : before;
+  if (note != before) {
+    std::erase(notes, before);
+    notes.push_back(note);
   }
   return notes;
 }

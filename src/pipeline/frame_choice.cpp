@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/frame_choice.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -16,8 +18,13 @@ namespace {
 
 // A choice that is less sure than this gets a note. [ours]
 constexpr double kUnsure = 0.5;
-// A choice by habit gets one where the shape alone is surer of another direction. [ours]
+// A choice by habit gets one where the shape alone is surer of another direction. [ours; docs/lab]
 constexpr double kSpeaksAgainst = 0.8;
+constexpr double kSpeaksAgainstUp = 2.0 / 3.0;
+constexpr double kSpeaksForTheBack = 0.5;
+// A view whose direction has so large a cosine with a side's shows that side, of less than minus that its
+// back. [ours]
+constexpr double kBeside = 0.1;
 // Only where all candidates look alike a choice is surer than 98 %.
 constexpr double kAllAlike = 0.99;
 
@@ -45,6 +52,18 @@ std::string sure(double confidence) {
   return percent(confidence) + " sure";
 }
 
+/// What the shape alone suggests, if it is so sure of that that it should be told.
+std::optional<Vec3> told_by_shape(const DirectionChoice& choice, const std::string& word) {
+  if (!choice.by_shape) {
+    return {};
+  }
+  const bool is_opposite = choice.by_shape->dot(choice.direction) < -0.5;
+  const double least = word == "up"  ? kSpeaksAgainstUp
+                       : is_opposite ? kSpeaksForTheBack
+                                     : kSpeaksAgainst;
+  return choice.by_shape_confidence > least ? choice.by_shape : std::nullopt;
+}
+
 /// What a user should know of a choice that is no plain case; empty if it is one.
 /// \param word "up" or "front". \param usual the convention's direction. \param of "of its format".
 /// \param best what there is to say of the best view. \param flag that sets it.
@@ -53,7 +72,8 @@ std::string note_on(const DirectionChoice& choice, const std::string& word, cons
   const std::string chosen = name_of(choice.direction);
   if (choice.source == "shape") {
     return word +
-           (best.empty() ? " is taken to be " + chosen : " is unsure: " + chosen + " is taken") +
+           (choice.confidence < kUnsure ? " is unsure: " + chosen + " is taken"
+                                        : " is taken to be " + chosen) +
            " (" + sure(choice.confidence) + by(choice) + "), not " + name_of(usual) +
            ", the usual one " + of + best + "; " + flag + " " + name_of(usual) + " overrules this";
   }
@@ -70,9 +90,9 @@ std::string note_on(const DirectionChoice& choice, const std::string& word, cons
                           : "") +
            best + "; " + flag + " sets it";
   }
-  if (choice.by_shape && choice.by_shape_confidence > kSpeaksAgainst) {
-    return word + ": " + taken + ", but the shape alone suggests " + name_of(*choice.by_shape) +
-           best + "; " + flag + " " + name_of(*choice.by_shape) + " takes it";
+  if (const std::optional<Vec3> told = told_by_shape(choice, word)) {
+    return word + ": " + taken + ", but the shape alone suggests " + name_of(*told) + best + "; " +
+           flag + " " + name_of(*told) + " takes it";
   }
   return {};
 }
@@ -110,6 +130,39 @@ std::string summary_of(const DirectionChoice& choice, const std::string& word,
   return text + alike_text(choice.alike) + ", " + sure(choice.confidence) +
          (is_by_habit ? std::string(", ") + habit.its : by(choice)) +
          (choice.by_shape ? " (the shape alone: " + name_of(*choice.by_shape) + ")" : "");
+}
+
+/// Whether a view shows the back of what has another front. \param eye as note_on_front() has it.
+bool is_from_behind(const DirectionChoice& front, const Vec3& eye) {
+  const bool looks_alike =
+      std::any_of(front.alike.begin(), front.alike.end(),
+                  [&](const Vec3& other) { return other.dot(front.direction) < -0.5; });
+  return !looks_alike && eye.dot(front.direction) < -kBeside;
+}
+
+/// "; the best view weighs all sides", and on which side of a front it is where that is not the usual one.
+/// Of a front that is unsure nothing is said as if it were one.
+std::string words_on_best_view(const Orientation& orientation, const ViewOptions& options,
+                               const Vec3& eye) {
+  const DirectionChoice& front = orientation.front;
+  const bool is_behind = is_from_behind(front, eye);
+  if (front.confidence >= kUnsure) {
+    return is_behind ? "; the best view is from behind" : "";
+  }
+  const std::string weighs = objective_of(options) == Objective::People && front.source != "given"
+                                 ? "; the best view weighs all sides"
+                                 : "";
+  if (!is_behind) {
+    return weighs;
+  }
+  if (eye.dot(front.likeliest) > kBeside) {
+    return weighs + ", and is from the side that the shape suggests";
+  }
+  // The odds begin at the front and go about up.
+  const bool is_back_likelier = orientation.front_odds[2] > orientation.front_odds[0];
+  return is_back_likelier
+             ? weighs
+             : weighs + ", and is from behind if the front is " + name_of(front.direction);
 }
 
 }  // namespace
@@ -166,19 +219,15 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   return choice;
 }
 
-std::string note_on_front(const FrameChoice& choice, const ViewOptions& options, bool is_behind) {
+std::string note_on_front(const FrameChoice& choice, const ViewOptions& options, const Vec3& eye) {
   const DirectionChoice& up = choice.orientation.up;
   const DirectionChoice& front = choice.orientation.front;
   const std::string name = name_of(front.direction);
-  const bool is_weighed = objective_of(options) == Objective::People && front.source == "format" &&
-                          front.confidence < kUnsure;
-  const std::string best = is_weighed ? std::string("; the best view weighs all sides") +
-                                            (is_behind ? ", and is from behind" : "")
-                           : is_behind ? "; the best view is from behind"
-                                       : "";
-  std::string note =
+  const bool is_behind = is_from_behind(front, eye);
+  const std::string note =
       note_on(front, "front", up_vector(default_front(choice.frame.up)),
-              up.source == "format" && !choice.is_of_map ? HabitWords{}.of : "for this up", best,
+              up.source == "format" && !choice.is_of_map ? HabitWords{}.of : "for this up",
+              words_on_best_view(choice.orientation, options, eye),
               up.source == "shape" ? "--up " + name_of(up.direction) + " --front" : "--front");
   if (!note.empty() || !is_behind) {
     return note;

@@ -8,8 +8,8 @@
 namespace vantage {
 
 /// What a user should know of the front, a sentence; empty where it is a plain case.
-/// \param is_behind whether the best view shows its back.
+/// \param eye from the centre towards the best view's eye; zero where nothing is to be said of its side.
 std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
-                          bool is_behind = false);
+                          const Vec3& eye = Vec3::Zero());
 
 }  // namespace vantage

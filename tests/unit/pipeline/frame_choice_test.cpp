@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/frame_choice.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -181,6 +183,80 @@ TEST(FrameChoice, NotesWhereTheShapeAloneIsSureOfAnother) {
   EXPECT_EQ(note_on_front(choice, {}),
             "front: z is taken, the usual one of its format (60 % sure), but the shape alone "
             "suggests x; --front x takes it");
+}
+
+TEST(FrameChoice, NotesWhereTheShapeAloneFavoursTheBackOrAnotherUp) {
+  FrameChoice choice;
+  choice.orientation.up.source = "shape";
+  choice.frame.up = UpAxis::Z;
+  DirectionChoice& front = choice.orientation.front;
+  front = {.direction = -Vec3::UnitY(),
+           .source = "format",
+           .confidence = 0.76,
+           .likeliest = -Vec3::UnitY(),
+           .by_shape = Vec3(Vec3::UnitY()),
+           .by_shape_confidence = 0.49};
+  EXPECT_EQ(note_on_front(choice, {}), "");
+  front.by_shape_confidence = 0.52;
+  EXPECT_TRUE(note_on_front(choice, {})
+                  .ends_with("but the shape alone suggests y; --up y --front y takes it"))
+      << note_on_front(choice, {});
+  // A seat with a back on a post: the shape alone says z by 0.77, the format y.
+  TriMesh seat = together(box(1.0, 0.8, 0.05, 1), box(0.3, 0.3, 0.8, 1), {0.35, 0.25, 0.05});
+  seat = together(seat, box(2.0, 1.0, 0.1, 1), {-0.5, -0.1, 0.85});
+  seat = together(seat, box(2.0, 0.1, 0.8, 1), {-0.5, 0.8, 0.95});
+  const FrameChoice standing = choice_for(seat, ModelFormat::Ply);
+  EXPECT_GT(standing.orientation.up.confidence, 0.5);
+  EXPECT_LT(standing.orientation.up.by_shape_confidence, 0.8);
+  ASSERT_FALSE(standing.notes.empty());
+  EXPECT_TRUE(standing.notes[0].ends_with("sure), but the shape alone suggests z; --up z takes it"))
+      << standing.notes[0];
+}
+
+TEST(FrameChoice, SaysOfTheBestViewOnlyWhatIsTrueOfAFrontThatIsUnsure) {
+  const auto said = [](const DirectionChoice& front, const std::array<double, 4>& odds) {
+    FrameChoice choice;
+    choice.orientation.front = front;
+    choice.orientation.front_odds = odds;
+    const std::string note = note_on_front(choice, {}, Vec3(0.5, 0.4, -0.7));
+    const std::size_t begin = note.find("the best view");
+    return begin == std::string::npos ? note : note.substr(begin, note.rfind("; ") - begin);
+  };
+  DirectionChoice front{.direction = Vec3::UnitZ(),
+                        .source = "format",
+                        .confidence = 0.1,
+                        .likeliest = -Vec3::UnitZ(),
+                        .likeliest_confidence = 0.7};
+  EXPECT_EQ(said(front, {0.1, 0.1, 0.7, 0.1}),
+            "the best view weighs all sides, and is from the side that the shape suggests");
+  front.likeliest = -Vec3::UnitX();
+  EXPECT_EQ(said(front, {0.1, 0.1, 0.1, 0.7}),
+            "the best view weighs all sides, and is from behind if the front is z");
+  EXPECT_EQ(said(front, {0.1, 0.1, 0.2, 0.6}), "the best view weighs all sides");
+  front.likeliest = front.direction;
+  front.confidence = 0.47;
+  const char* const behind = "the best view weighs all sides, and is from behind if the front is z";
+  EXPECT_EQ(said(front, {0.47, 0.1, 0.3, 0.13}), behind);
+  front.source = "shape";
+  EXPECT_EQ(said(front, {0.47, 0.1, 0.3, 0.13}), behind);
+  front.confidence = 0.9;
+  EXPECT_EQ(said(front, {0.9, 0.0, 0.1, 0.0}), "the best view is from behind");
+}
+
+TEST(FrameChoice, CallsAFrontOfTheShapeUnsureBelowOneHalf) {
+  FrameChoice choice;
+  choice.orientation.up.source = "shape";
+  choice.orientation.front = {.direction = Vec3::UnitX(),
+                              .source = "shape",
+                              .confidence = 0.44,
+                              .likeliest = Vec3::UnitX(),
+                              .reasons = "its mirror plane"};
+  EXPECT_EQ(
+      note_on_front(choice, {}),
+      "front is unsure: x is taken (44 % sure, by its mirror plane), not z, the usual one for "
+      "this up; the best view weighs all sides; --up y --front z overrules this");
+  choice.orientation.front.confidence = 0.6;
+  EXPECT_TRUE(note_on_front(choice, {}).starts_with("front is taken to be x (60 % sure"));
 }
 
 TEST(StandAlongAxes, SaysWhereItTurnsNothing) {
