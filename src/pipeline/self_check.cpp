@@ -117,7 +117,8 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& w
         (shape.significance.empty() ? ""
                                     : " and " + percent(significant) + " of the significance") +
         "), so that map, skeleton and views are hardly more than a guess: mend the mesh, cut it "
-        "into small even triangles, or choose another --method");
+        "into small even triangles, or choose another --method, which alone helps flat discs and "
+        "plates");
   }
 }
 

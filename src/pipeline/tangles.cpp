@@ -12,7 +12,6 @@
 #include "vantage/mesh/tri_mesh.h"
 
 #include "mesh/disjoint_sets.h"
-#include "pipeline/percent.h"
 
 namespace vantage {
 namespace {
@@ -36,9 +35,9 @@ struct LoopCount {
   double cycles = 0.0;  ///< Of the skeleton.
   double loops = 1.0;   ///< Of the surface, 1 − χ: those of all handles and holes, and more.
   double gaps = 0.0;    ///< Of these, around single triangles that are missing.
-  double area = 0.0;
+  double area = 0.0;    ///< Twice that of the surface.
 
-  /// Whether it is one by what goes around gaps, if all other loops are followed.
+  /// Whether it is one by the loops around gaps, where all others of the surface are in it.
   [[nodiscard]] bool is_tangle() const {
     return is_tangled(std::min(gaps, cycles - std::max(0.0, loops - gaps)), nodes);
   }
@@ -144,9 +143,8 @@ std::string tangle_of_surface(const ShapeAnalysis& shape) {
   const auto text = [](double count) { return std::to_string(static_cast<std::size_t>(count)); };
   return "the skeleton is a tangle of " + text(tangles.cycles) + " cycles at " +
          text(tangles.nodes) + " nodes, as " + text(tangles.gaps) +
-         " single triangles are missing where " + percent(tangles.area / all) +
-         " of the area is, so that map, skeleton and views are hardly more than a guess: fill "
-         "these holes";
+         " single triangles are missing, so that map, skeleton and views are hardly more than a "
+         "guess: fill these holes";
 }
 
 }  // namespace
@@ -159,8 +157,7 @@ std::string tangle_text(const ShapeAnalysis& shape) {
                ? "the skeleton of the points is a tangle of " + std::to_string(cycles) +
                      " cycles at " + std::to_string(nodes) +
                      " nodes, so that map, skeleton and views are hardly more than a guess: thin "
-                     "the "
-                     "points out evenly, or mesh them"
+                     "the points out evenly, or mesh them"
                : "";
   }
   return shape.check.closed || static_cast<double>(cycles) <= kMostCycles
