@@ -16,7 +16,6 @@
 #include "core/random.h"
 #include "core/spearman.h"
 #include "pipeline/percent.h"
-#include "pipeline/tangles.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -34,6 +33,10 @@ constexpr double kLeastAgreement = 0.85;
 constexpr double kLeastAttained = 0.5;
 /// How far vertices are moved, of the diameter. [ours]
 constexpr double kMoved = 1e-4;
+/// A cloud's graph of more cycles than this, and of more than one for so many nodes, is a tangle: loops
+/// that the points do not have. [ours; docs/lab]
+constexpr std::size_t kMostCycles = 8;
+constexpr std::size_t kNodesOfACycle = 4;
 /// Vertices looked at again for each view, about. [ours]
 constexpr std::size_t kAskedAgain = 4096;
 
@@ -149,8 +152,14 @@ std::string outside_text(const ShapeAnalysis& shape) {
 }
 
 void look_at_tangles(const ShapeAnalysis& shape, std::vector<std::string>& warnings) {
-  if (std::string text = tangle_text(shape); !text.empty()) {
-    warnings.push_back(std::move(text));
+  const std::size_t nodes = shape.skeleton.graph.nodes.size();
+  const std::size_t cycles = cycle_count(shape.skeleton.graph);
+  if (shape.cloud && cycles > kMostCycles && kNodesOfACycle * cycles > nodes) {
+    warnings.push_back(
+        "the skeleton of the points is a tangle of " + std::to_string(cycles) + " cycles at " +
+        std::to_string(nodes) +
+        " nodes, so that map, skeleton and views are hardly more than a guess: thin the "
+        "points out evenly, or mesh them");
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -161,59 +160,6 @@ TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
   graph.nodes.resize(20);
   shape.cloud.reset();  // of a surface they are its handles
   EXPECT_FALSE(is_doubted());
-}
-
-/// Faces of which no two share a vertex, `count` of them.
-std::vector<std::size_t> lone_faces(const TriMesh& mesh, std::size_t count) {
-  std::vector<bool> is_taken(mesh.positions.size(), false);
-  std::vector<std::size_t> faces;
-  for (std::size_t f = 0; f < mesh.triangles.size() && faces.size() < count; ++f) {
-    const Triangle& t = mesh.triangles[f];
-    if (std::none_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_taken[v]; })) {
-      faces.push_back(f);
-      for (const std::uint32_t v : t) {
-        is_taken[v] = true;
-      }
-    }
-  }
-  return faces;
-}
-
-TEST(DoubtsAbout, TangledSkeletonsAreThoseOfSurfacesWithManyMissingTriangles) {
-  // Nine squares in a row: 20 nodes, nine cycles.
-  CurveGraph ladder{.nodes = std::vector<Vec3>(20, Vec3::Zero()), .edges = {{0, 1}}};
-  for (std::uint32_t last = 2; last < 20; last += 2) {
-    for (const std::array<std::uint32_t, 2>& edge :
-         {std::array{last - 2, last}, std::array{last - 1, last + 1}, std::array{last, last + 1}}) {
-      ladder.edges.push_back(edge);
-    }
-  }
-  const auto said_of = [&](const TriMesh& mesh) {
-    ShapeAnalysis shape = prepare_surface(model_of(mesh));
-    add_history(shape, {});
-    shape.skeleton.graph = ladder;
-    shape.skeleton.node_of_vertex.assign(shape.surface.positions.size(), 0);
-    std::string said;
-    for (const std::string& warning : skeleton_warnings(shape)) {
-      said += warning.find("tangle") != std::string::npos ? warning : "";
-    }
-    return said;
-  };
-  const auto without = [](TriMesh mesh, std::vector<std::size_t> faces) {
-    std::sort(faces.rbegin(), faces.rend());
-    for (const std::size_t f : faces) {
-      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(f));
-    }
-    return mesh;
-  };
-  const TriMesh ball = sphere(3);
-  EXPECT_TRUE(said_of(without(ball, lone_faces(ball, 12)))
-                  .starts_with("the skeleton is a tangle of 9 cycles at 20 nodes, as 12 single "
-                               "triangles are missing"));
-  EXPECT_EQ(said_of(without(ball, lone_faces(ball, 8))), "");
-  // Of openings as of handles loops are right.
-  EXPECT_EQ(said_of(ball), "");
-  EXPECT_EQ(said_of(without(sphere(2), lone_faces(sphere(2), 12))), "");
 }
 
 }  // namespace
