@@ -149,9 +149,9 @@ std::string words_on_best_view(const Orientation& orientation, const ViewOptions
   if (front.confidence >= kUnsure) {
     return is_behind ? "; the best view is from behind" : "";
   }
-  const std::string weighs = objective_of(options) == Objective::People && front.source != "given"
-                                 ? "; the best view weighs all sides"
-                                 : "";
+  std::string weighs = objective_of(options) == Objective::People && front.source != "given"
+                           ? "; the best view weighs all sides"
+                           : "";
   if (!is_behind) {
     return weighs;
   }
@@ -224,7 +224,7 @@ std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
   const DirectionChoice& front = choice.orientation.front;
   const std::string name = name_of(front.direction);
   const bool is_behind = is_from_behind(front, eye);
-  const std::string note =
+  std::string note =
       note_on(front, "front", up_vector(default_front(choice.frame.up)),
               up.source == "format" && !choice.is_of_map ? HabitWords{}.of : "for this up",
               words_on_best_view(choice.orientation, options, eye),
