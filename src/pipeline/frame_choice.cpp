@@ -140,18 +140,17 @@ bool is_from_behind(const DirectionChoice& front, const Vec3& eye) {
   return !looks_alike && eye.dot(front.direction) < -kBeside;
 }
 
-/// "; the best view weighs all sides", and on which side of a front it is where that is not the usual one.
-/// Of a front that is unsure nothing is said as if it were one.
+/// What there is to say of the best view: that it is from behind, or of a front that is unsure, that it weighs
+/// all sides, and which one it shows. Of such a front nothing is said as if it were one.
 std::string words_on_best_view(const Orientation& orientation, const ViewOptions& options,
                                const Vec3& eye) {
   const DirectionChoice& front = orientation.front;
   const bool is_behind = is_from_behind(front, eye);
-  if (front.confidence >= kUnsure) {
+  if (front.confidence >= kUnsure || front.source == "given" ||
+      objective_of(options) != Objective::People) {
     return is_behind ? "; the best view is from behind" : "";
   }
-  std::string weighs = objective_of(options) == Objective::People && front.source != "given"
-                           ? "; the best view weighs all sides"
-                           : "";
+  std::string weighs = "; the best view weighs all sides";
   if (!is_behind) {
     return weighs;
   }

@@ -283,6 +283,12 @@ TEST(FindViews, SaysOneThingOfAFrontThatIsUnsure) {
     // The odds have the back likelier than z.
     EXPECT_EQ(count_of("from behind", behind), 0U) << behind.back();
     EXPECT_EQ(count_of("weighs all sides", behind), 1U) << behind.back();
+    DirectionChoice aside = front;
+    aside.likeliest = Vec3::UnitX();
+    aside.likeliest_confidence = 0.4;
+    const std::vector<std::string> from_aside = notes_seen_from(false, aside);
+    EXPECT_EQ(count_of("front", from_aside), 1U);
+    EXPECT_EQ(count_of("sides, and is from the side that the shape suggests", from_aside), 1U);
   }
 }
 
