@@ -222,6 +222,19 @@ TEST(SeenAreas, BehindABandOfLongFacesAreWhatItLeaves) {
   EXPECT_NEAR(behind, 1.44 - 0.5, 1e-9);
 }
 
+TEST(SeenAreas, BehindABarWhoseEndsAreHiddenAreThoseOfBruteForce) {
+  // Both ends of the bar's long edges lie behind plates, and what is between them cuts faces of the wall.
+  const TriMesh plate = test::sheet(1.5, 2.0, 1);
+  TriMesh all =
+      test::together(test::sheet(8.0, 8.0, 10), test::sheet(6.0, 0.5, 1), {1.0, 3.9, 1.0});
+  all = test::together(all, plate, {0.5, 3.0, 1.5});
+  all = test::together(all, plate, {6.0, 3.0, 1.5});
+  for (const Vec3& towards : {Vec3(0.0, 0.0, 1.0), Vec3(0.03, -0.05, 1.0).normalized()}) {
+    expect_brute_force_areas(all, FaceSides::Both, {Projection::Orthographic, towards});
+    expect_brute_force_areas(all, FaceSides::Both, {Projection::Perspective, 40.0 * towards});
+  }
+}
+
 TEST(SeenAreas, AreThoseOfBruteForce) {
   const TriMesh two_boxes =
       test::together(test::box(1.0, 2.0, 3.0, 1), test::box(1.0, 1.0, 1.0, 1), Vec3(1.5, 0.2, 0.4));
