@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/pipeline/find_views.h"
 #include "vantage/spatial/directions.h"
 
 #include "pipeline/coarse_copies.h"
+#include "pipeline/map_estimates.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -73,12 +75,15 @@ TriMesh rows_of(const TriMesh& one, std::uint32_t count) {
   return many;
 }
 
+/// It has no vertex to lose.
+TriMesh tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+}
+
 TEST(CoarseCopies, SampleASurfaceOfPartsThatCannotBeMadeCoarser) {
-  // Tetrahedra have no vertex to lose.
-  const TriMesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                            {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
   const auto copies_of_rows = [&](std::uint32_t count) {
-    const ShapeAnalysis shape = prepare_surface(model_of(rows_of(tetrahedron, count)));
+    const ShapeAnalysis shape = prepare_surface(model_of(rows_of(tetrahedron(), count)));
     return std::make_unique<const CoarseCopies>(shape);
   };
   const auto many = copies_of_rows(1100);
@@ -89,6 +94,24 @@ TEST(CoarseCopies, SampleASurfaceOfPartsThatCannotBeMadeCoarser) {
   EXPECT_FALSE(few->is_coarse());
   EXPECT_FALSE(few->is_sampled());
   EXPECT_EQ(few->survey_level(), 4);
+}
+
+TEST(MapEstimates, BySamplesAreNearTheScores) {
+  const TriMesh many = renumbered(rows_of(tetrahedron(), 1100), 7);
+  const ShapeAnalysis shape = prepare_surface(model_of(many));
+  const std::vector<double> map(shape.surface.positions.size(), 1.0);
+  ViewOptions options;
+  options.objective = Objective::Significance;
+  const MapEstimates estimates(shape, map, options);
+  ASSERT_TRUE(estimates.copies().is_sampled());
+  const VertexVisibility visibility(shape.surface, shape.sides);
+  const ViewScorer scorer(visibility, map, scoring_camera(shape, options));
+  const std::vector<Vec3> views = direction_set(ViewSphereBase::Icosahedron, 1).directions;
+  const std::vector<double> exact = scorer.score_all(views);
+  const std::vector<double> sampled = estimates.scores(views);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    EXPECT_NEAR(sampled[i], exact[i], 0.05 * scorer.total());  // four deviations of 1100 samples
+  }
 }
 
 TEST(CoarseCopies, SurveysACopyThatRemainsLargeFromFewerDirections) {
