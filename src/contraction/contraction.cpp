@@ -12,6 +12,7 @@
 #include "contraction/component_contraction.h"
 #include "contraction/component_scaling.h"
 #include "contraction/history_summary.h"
+#include "contraction/missing_triangles.h"
 #include "contraction/proxy.h"
 #include "contraction/refinement.h"
 #include "contraction/second_mesh.h"
@@ -283,6 +284,13 @@ ContractionHistory of_refined(const TriMesh& mesh, RefinedSurface surface,
   return history;
 }
 
+ContractionHistory contract_by_area(const TriMesh& mesh, const ContractionOptions& options,
+                                    const RunContext& run) {
+  std::optional<RefinedSurface> refined = refine_coarse_components(mesh, run);
+  return refined ? of_refined(mesh, std::move(*refined), options, run)
+                 : contract_pieces(mesh, {}, options, run);
+}
+
 }  // namespace
 
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
@@ -293,12 +301,22 @@ ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& optio
     resolved.weights = options.method == ContractionMethod::Exact ? ContractionWeights::Vertex
                                                                   : ContractionWeights::Area;
   }
-  if (resolved.weights == ContractionWeights::Area) {
-    if (std::optional<RefinedSurface> refined = refine_coarse_components(mesh, run)) {
-      return of_refined(mesh, std::move(*refined), resolved, run);
-    }
+  if (resolved.weights != ContractionWeights::Area) {
+    return contract_pieces(mesh, {}, resolved, run);
   }
-  return contract_pieces(mesh, {}, resolved, run);
+  std::vector<Triangle> missing = missing_triangles(mesh);
+  if (missing.empty()) {
+    return contract_by_area(mesh, resolved, run);
+  }
+  TriMesh whole = mesh;
+  whole.triangles.insert(whole.triangles.end(), missing.begin(), missing.end());
+  ContractionHistory history = contract_by_area(whole, resolved, run);
+  history.warnings.push_back(std::to_string(missing.size()) +
+                             (missing.size() == 1 ? " triangle missing in the surface was"
+                                                  : " triangles missing in the surface were") +
+                             " put in before the contraction");
+  history.missing = std::move(missing);
+  return history;
 }
 
 }  // namespace vantage

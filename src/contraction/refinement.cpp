@@ -13,6 +13,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "mesh/edge_splitting.h"
+#include "mesh/triangle_corners.h"
 
 namespace vantage {
 namespace {
@@ -47,12 +48,6 @@ constexpr std::size_t kMostAdded = 150'000;
 constexpr double kCreaseCos = 0.94;  // of 20°
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();  // an edge length of no bound
-
-double longest_edge(const TriMesh& mesh, const Triangle& t) {
-  const auto& x = mesh.positions;
-  return std::max(
-      {(x[t[0]] - x[t[1]]).norm(), (x[t[1]] - x[t[2]]).norm(), (x[t[2]] - x[t[0]]).norm()});
-}
 
 /// A component's faces, and how large it is.
 struct CoarsePart {
