@@ -51,6 +51,12 @@ ColourSource colour_source(const Json& material) {
              : ColourSource{member(gloss, "diffuseFactor"), member(gloss, "diffuseTexture")};
 }
 
+/// The texture by which a material's coordinates are chosen: that of its colour, or of its emission alone.
+const Json& leading_texture(const Json& material) {
+  const Json& of_colour = colour_source(material).texture;
+  return of_colour.is_object() ? of_colour : member(material, "emissiveTexture");
+}
+
 /// KHR_texture_transform: scale, then turn counter-clockwise in the picture, then shift.
 std::array<double, 6> uv_transform(const Json& texture_info) {
   const Json& transform = extension(texture_info, "KHR_texture_transform");
@@ -129,9 +135,41 @@ class MaterialReader {
     result.unlit = extension(source, "KHR_materials_unlit").is_object();
     if (colour.texture.is_object()) {
       result.texture = texture(member(colour.texture, "index"));
-      result.uv_transform = uv_transform(colour.texture);
+    }
+    result.uv_transform = uv_transform(leading_texture(source));
+    if (!result.unlit) {
+      set_emission(source, result);
     }
     return result;
+  }
+
+  /// Emission whose picture is missing, or lies otherwise than that of the colour, is left out: by its factor
+  /// alone all would be bright. \pre result.uv_transform
+  void set_emission(const Json& source, Material& result) {
+    const Json& strengthened = extension(source, "KHR_materials_emissive_strength");
+    const double strength = std::max(0.0, number(member(strengthened, "emissiveStrength"), 1.0));
+    const Json& factor = member(source, "emissiveFactor");
+    std::array<double, 3> emission{};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      emission[channel] = std::min(1.0, strength * share(factor, channel, 0.0));
+    }
+    const Json& laid_on = member(source, "emissiveTexture");
+    if (emission == std::array<double, 3>{}) {
+      return;
+    }
+    if (laid_on.is_object()) {
+      const bool lies_alike = texcoord_set(laid_on) == texcoord_set(leading_texture(source)) &&
+                              uv_transform(laid_on) == result.uv_transform;
+      if (!lies_alike) {
+        loader_.complain("of an emission", "lies otherwise than that of the colour");
+        return;
+      }
+      result.emission_texture = texture(member(laid_on, "index"));
+      if (!result.emission_texture) {
+        return;
+      }
+    }
+    result.emission = emission;
   }
 
   /// Index among the textures that were read; a texture is an image and how it is wrapped.
@@ -224,7 +262,7 @@ std::vector<int> gltf_texcoord_sets(const Json& root) {
   std::vector<int> sets;
   const Json& list = member(root, "materials");
   for (std::size_t m = 0; list.is_array() && m < list.size(); ++m) {
-    sets.push_back(texcoord_set(colour_source(list[m]).texture));
+    sets.push_back(texcoord_set(leading_texture(list[m])));
   }
   return sets;
 }

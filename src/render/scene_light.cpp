@@ -137,7 +137,7 @@ Light Scene::surface_light(const PreparedPaint& paint, Sample& sample, const Ray
     veil = veil ? veil : translucent_opacity(patch.point, before_tube);
     opacity *= *veil;
   }
-  return {*patch.shown, opacity};
+  return {*patch.shown + shown.emission, opacity};
 }
 
 void Scene::add_tube_and_ground(Light& light, const PreparedPaint& paint, const Sample& sample,

@@ -28,8 +28,11 @@ void check_fit(const Appearance& appearance, const TriMesh& mesh) {
       return uv == Appearance::kNone || uv < appearance.uvs.size();
     });
   };
-  const auto has_texture = [&](const Material& material) {
-    return !material.texture || *material.texture < appearance.textures.size();
+  const auto is_texture = [&](const std::optional<std::uint32_t>& texture) {
+    return !texture || *texture < appearance.textures.size();
+  };
+  const auto has_textures = [&](const Material& material) {
+    return is_texture(material.texture) && is_texture(material.emission_texture);
   };
   const auto has_pixels = [](const Texture& texture) {
     return texture.image.width > 0 && texture.image.height > 0 &&
@@ -41,7 +44,7 @@ void check_fit(const Appearance& appearance, const TriMesh& mesh) {
     return std::all_of(items.begin(), items.end(), test);
   };
   if (!sizes || !all(appearance.material_of_triangle, is_material) ||
-      !all(appearance.uv_of_triangle, are_uvs) || !all(appearance.materials, has_texture) ||
+      !all(appearance.uv_of_triangle, are_uvs) || !all(appearance.materials, has_textures) ||
       !all(appearance.textures, has_pixels)) {
     throw InvalidInput("the materials belong to another mesh: their indices do not fit");
   }
@@ -52,11 +55,20 @@ void check_fit(const Appearance& appearance, const TriMesh& mesh) {
 SurfaceMaterials::SurfaceMaterials(const Appearance& appearance, const TriMesh& mesh)
     : appearance_(&appearance), mesh_(&mesh) {
   check_fit(appearance, mesh);
-  pyramids_.resize(2 * appearance.textures.size());
+  pyramids_.resize(appearance.textures.size());
+  const auto make = [&](std::uint32_t texture, bool is_opaque) {
+    Pyramids& pyramids = pyramids_[texture];
+    std::optional<TexturePyramid>& one = is_opaque ? pyramids.opaque : pyramids.with_opacity;
+    if (!one) {
+      one.emplace(appearance.textures[texture], is_opaque);
+    }
+  };
   for (const Material& material : appearance.materials) {
-    if (material.texture && !pyramids_[pyramid_of(material)]) {
-      pyramids_[pyramid_of(material)].emplace(appearance.textures[*material.texture],
-                                              material.alpha == AlphaMode::Opaque);
+    if (material.texture) {
+      make(*material.texture, material.alpha == AlphaMode::Opaque);
+    }
+    if (material.emission_texture) {
+      make(*material.emission_texture, true);
     }
   }
   has_openings_ =
@@ -64,16 +76,10 @@ SurfaceMaterials::SurfaceMaterials(const Appearance& appearance, const TriMesh& 
                   [](const Material& material) { return material.alpha != AlphaMode::Opaque; });
 }
 
-/// A texture may be shared by materials that mean its opacity and others that do not.
-std::size_t SurfaceMaterials::pyramid_of(const Material& material) {
-  return 2 * std::size_t{*material.texture} + (material.alpha == AlphaMode::Opaque ? 1 : 0);
-}
-
-Texel SurfaceMaterials::texel(const Material& material, std::uint32_t face, float u, float v,
-                              double spacing) const {
+Texel SurfaceMaterials::texel(const TexturePyramid& pyramid, const Material& material,
+                              std::uint32_t face, float u, float v, double spacing) const {
   // Faces without coordinates show the mean of the picture: wood is still brown.
   constexpr float kCoarsest = 100.0F;
-  const TexturePyramid& pyramid = *pyramids_[pyramid_of(material)];
   if (appearance_->uv_of_triangle.empty()) {
     return pyramid.at(0.5F, 0.5F, kCoarsest);
   }
@@ -115,9 +121,18 @@ SurfaceMaterials::Shown SurfaceMaterials::at(std::uint32_t face, float u, float 
   shown.colour = {material.colour[0], material.colour[1], material.colour[2]};
   double opacity = material.opacity;
   if (material.texture) {
-    const Texel texel = this->texel(material, face, u, v, spacing);
+    const Pyramids& pyramids = pyramids_[*material.texture];
+    const auto& pyramid =
+        material.alpha == AlphaMode::Opaque ? pyramids.opaque : pyramids.with_opacity;
+    const Texel texel = this->texel(*pyramid, material, face, u, v, spacing);
     shown.colour = shown.colour.cwiseProduct(texel.colour.cast<double>());
     opacity *= static_cast<double>(texel.opacity);
+  }
+  shown.emission = {material.emission[0], material.emission[1], material.emission[2]};
+  if (material.emission_texture) {
+    const auto& pyramid = pyramids_[*material.emission_texture].opaque;
+    shown.emission = shown.emission.cwiseProduct(
+        texel(*pyramid, material, face, u, v, spacing).colour.cast<double>());
   }
   if (material.alpha == AlphaMode::Mask) {
     shown.opacity = opacity >= material.alpha_cutoff ? 1.0 : 0.0;

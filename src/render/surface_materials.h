@@ -20,10 +20,11 @@ class SurfaceMaterials {
  public:
   /// What is seen at a place.
   struct Shown {
-    Vec3 colour = Vec3::Ones();  ///< Linear, to be multiplied by the vertices' colour.
-    double opacity = 1.0;        ///< In [0, 1]; exactly 0 in a hole.
-    bool unlit = false;          ///< No light falls on it.
-    bool has_material = false;   ///< Else white.
+    Vec3 colour = Vec3::Ones();    ///< Linear, to be multiplied by the vertices' colour.
+    Vec3 emission = Vec3::Zero();  ///< Linear, to be added to what it reflects.
+    double opacity = 1.0;          ///< In [0, 1]; exactly 0 in a hole.
+    bool unlit = false;            ///< No light falls on it.
+    bool has_material = false;     ///< Else white.
   };
 
   /// All must outlive this. \throw InvalidInput if `appearance` does not fit the mesh.
@@ -36,15 +37,20 @@ class SurfaceMaterials {
   [[nodiscard]] bool has_openings() const { return has_openings_; }
 
  private:
-  [[nodiscard]] Texel texel(const Material& material, std::uint32_t face, float u, float v,
-                            double spacing) const;
+  /// A texture's pyramids: materials that share it may mean its opacity or not.
+  struct Pyramids {
+    std::optional<TexturePyramid> opaque{};
+    std::optional<TexturePyramid> with_opacity{};
+  };
+
+  /// Of a texture of the face's material.
+  [[nodiscard]] Texel texel(const TexturePyramid& pyramid, const Material& material,
+                            std::uint32_t face, float u, float v, double spacing) const;
 
   const Appearance* appearance_;
   const TriMesh* mesh_;
   bool has_openings_ = false;
-  [[nodiscard]] static std::size_t pyramid_of(const Material& material);
-
-  std::vector<std::optional<TexturePyramid>> pyramids_{};  ///< See pyramid_of().
+  std::vector<Pyramids> pyramids_{};  ///< Of each texture those that are needed.
 };
 
 }  // namespace vantage

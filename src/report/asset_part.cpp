@@ -44,8 +44,9 @@ std::array<float, 2> narrow(const std::array<double, 2>& place) {
 void add_faces(const Model& model, const std::vector<std::uint32_t>& faces,
                const Material* material, Rows& rows) {
   const Appearance& appearance = model.appearance;
-  const bool is_textured =
-      material != nullptr && material->texture && !appearance.uv_of_triangle.empty();
+  const bool is_textured = material != nullptr &&
+                           (material->texture || material->emission_texture) &&
+                           !appearance.uv_of_triangle.empty();
   std::vector<std::array<std::uint32_t, 2>> corners;
   for (const std::uint32_t face : faces) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -74,6 +75,12 @@ Json material_json(const Material& material) {
   Json json = {{"colour", material.colour}, {"unlit", material.unlit}};
   if (material.texture) {
     json["texture"] = *material.texture;
+  }
+  if (material.emission != std::array<double, 3>{}) {
+    json["emission"] = material.emission;
+  }
+  if (material.emission_texture) {
+    json["emission_texture"] = *material.emission_texture;
   }
   if (material.alpha == AlphaMode::Mask) {
     json["cutoff"] = material.alpha_cutoff;

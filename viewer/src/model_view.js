@@ -145,7 +145,7 @@ export class ModelView {
     return texture;
   }
 
-  assetMaterial({ colour, texture, opacity, cutoff, unlit }, textures, coloured) {
+  assetMaterial({ colour, texture, emission, emission_texture: glow, opacity, cutoff, unlit }, textures, coloured) {
     const options = { color: colour ? new THREE.Color().setRGB(...colour, THREE.LinearSRGBColorSpace) : coloured ? 0xffffff : PLAIN,
       vertexColors: coloured, side: THREE.DoubleSide, map: textures[texture] ?? null };
     if (cutoff !== undefined) {
@@ -154,7 +154,11 @@ export class ModelView {
     } else if (opacity !== undefined) {
       Object.assign(options, { transparent: true, opacity, depthWrite: opacity === 1 });
     }
-    return unlit ? new THREE.MeshBasicMaterial(options) : new THREE.MeshStandardMaterial({ ...options, roughness: 0.75 });
+    if (unlit) {
+      return new THREE.MeshBasicMaterial(options);
+    }
+    const emissive = new THREE.Color().setRGB(...(emission ?? [0, 0, 0]), THREE.LinearSRGBColorSpace);
+    return new THREE.MeshStandardMaterial({ ...options, roughness: 0.75, emissive, emissiveMap: textures[glow] ?? null });
   }
 
   addHistory(data) {

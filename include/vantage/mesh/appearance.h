@@ -42,6 +42,9 @@ struct Material {
   double alpha_cutoff = 0.5;                    ///< In [0, 1].
   bool unlit = false;                           ///< Shown as it is, without light or shade.
   std::optional<std::uint32_t> texture{};       ///< Index into Appearance::textures.
+  std::array<double, 3> emission{};             ///< Light of its own, linear, in [0, 1].
+  /// Index of the picture that it is multiplied by; it lies as `texture` does.
+  std::optional<std::uint32_t> emission_texture{};
   /// Rows of the map from a surface's coordinates to the texture's: (u', v') = (a u + b v + c, …).
   std::array<double, 6> uv_transform{1.0, 0.0, 0.0, 0.0, 1.0, 0.0};
 };

@@ -91,6 +91,39 @@ TEST(GltfAppearance, KnowsHolesGlassAndWhatNeedsNoLight) {
   EXPECT_TRUE(material(R"({"extensions":{"KHR_materials_unlit":{}}})").unlit);
 }
 
+TEST(GltfAppearance, KnowsLightOfItsOwn) {
+  const auto material = [](const std::string& text) {
+    return parse_model(gltf("{" + text + "}", green_part()), "a.gltf", {}, kAll)
+        .appearance.materials.at(0);
+  };
+  const std::string factor = R"("emissiveFactor":[0.5,0.25,0])";
+  const Material plain = material(factor);
+  EXPECT_THAT(plain.emission, ElementsAre(0.5, 0.25, 0.0));
+  EXPECT_FALSE(plain.emission_texture);
+  const Material strong = material(
+      factor + R"(,"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":3}})");
+  EXPECT_THAT(strong.emission, ElementsAre(1.0, 0.75, 0.0));
+  const Material screen = material(factor + R"(,"emissiveTexture":{"index":0,
+      "extensions":{"KHR_texture_transform":{"offset":[5,7]}}})");
+  EXPECT_THAT(screen.emission, ElementsAre(0.5, 0.25, 0.0));
+  EXPECT_EQ(screen.emission_texture, 0U);
+  EXPECT_EQ(screen.uv_transform[2], 5.0);
+  EXPECT_THAT(material(R"("emissiveTexture":{"index":0})").emission, ElementsAre(0.0, 0.0, 0.0));
+}
+
+TEST(GltfAppearance, LeavesOutLightWhosePictureIsMissingOrLiesOtherwiseThanTheColours) {
+  const std::string factor = R"({"emissiveFactor":[1,1,1],"emissiveTexture":)";
+  const std::string colour = R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
+  for (const std::string& material :
+       {factor + R"({"index":9}})", factor + R"({"index":0,"texCoord":1})" + colour,
+        factor + R"({"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}})" +
+            colour}) {
+    const Appearance a = parse_model(gltf(material, green_part()), "a.gltf", {}, kAll).appearance;
+    EXPECT_THAT(a.materials.at(0).emission, ElementsAre(0.0, 0.0, 0.0)) << material;
+    EXPECT_FALSE(a.materials.at(0).emission_texture) << material;
+  }
+}
+
 TEST(GltfAppearance, GivesTheDiffuseColourOfSpecularAndGlossinessToTheVertices) {
   const Model model = parse_model(
       gltf(R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0,0,1]}}})",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures of surfaces with materials.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -122,6 +123,27 @@ TEST(SurfaceMaterials, GlassMixesLightWithWhatIsBehind) {
   square.appearance.material_of_triangle.resize(4, 0);
   square.appearance.uv_of_triangle.resize(4, {0, 1, 2});
   EXPECT_EQ(picture(square, small()).pixel(16, 16)[3], std::lround((1.0 - 0.75 * 0.75) * 255));
+}
+
+TEST(SurfaceMaterials, EmissionIsAddedToWhatIsReflected) {
+  // A black screen of which the left half is lit.
+  Square square({kOn, kOn, kOn, kOn, 0, 0, 0, kOn, kOn, kOn, kOn, kOn, 0, 0, 0, kOn});
+  Material& material = square.appearance.materials[0];
+  material = {.emission = {0.2, 0.0, 0.1}, .emission_texture = 0};
+  const auto reds = [&] {
+    const Image image = picture(square, small());
+    return std::array{linear_of_srgb(image.pixel(8, 16)[0]),
+                      linear_of_srgb(image.pixel(24, 16)[0])};
+  };
+  const auto [white_lit, white] = reds();
+  material.colour = {0.0, 0.0, 0.0};
+  const auto [black_lit, black] = reds();
+  EXPECT_NEAR(black_lit - black, 0.2, 0.02);  // bright light is compressed
+  const std::vector<std::uint8_t> violet = pixel_of(picture(square, small()), 8, 16);
+  EXPECT_GT(violet[0], violet[2]);
+  EXPECT_GT(violet[2], violet[1]);
+  EXPECT_GT(white_lit, white);
+  EXPECT_LT(black, 0.01);
 }
 
 TEST(SurfaceMaterials, AWallIsSeenThroughFortyPanesOfThinGlass) {
