@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // A GLB of triangles, for the tests.
 
-/** @param {number[][]} vertices @param {number[][]} faces */
-export function glb(vertices, faces) {
+/** @param {number[][]} vertices @param {number[][]} faces @param {object} material of all faces */
+export function glb(vertices, faces, material = {}) {
   const positions = Float32Array.from(vertices.flat());
   const indices = Uint32Array.from(faces.flat());
   const axis = (pick) => [0, 1, 2].map((k) => pick(...vertices.map((v) => v[k])));
   const body = Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer)]);
   const json = {
     asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+    materials: [material], meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
     accessors: [
       { bufferView: 0, componentType: 5126, count: vertices.length, type: 'VEC3', min: axis(Math.min), max: axis(Math.max) },
       { bufferView: 1, componentType: 5125, count: indices.length, type: 'SCALAR' }],

@@ -6,6 +6,7 @@ import * as path from 'node:path';
 import { before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import * as zlib from 'node:zlib';
+import { glb } from './glb.mjs';
 import { blenderLocation, camera, cameraText, clickSphere, desktop, distance, drawn, folder, models, pageOf, pixels, unit,
   vantage, viewOf } from './report.mjs';
 
@@ -20,6 +21,7 @@ const reports = {
   people: [`${markup}.ply`, '--size', '160x120'],
   soup: ['soup.obj', ...rapid, '--views', '40', '--contraction', 'exact'],
   row: ['row.obj', ...rapid, '--focus', 'b1', '--projection', 'orthographic'],
+  lamp: ['lamp.glb', '--size', '160x120', '--contraction', 'exact', '--search', 'rapid'],
   box: ['box.obj', '--up', 'any', '--size', '160x120', '--contraction', 'exact'],
   large: [path.join(process.env.VANTAGE_DATA ?? '', 'paper', 'armadillo_172966_loop.ply'), ...rapid],
 };
@@ -67,6 +69,13 @@ function writeBox() {
     ...sides.map((side) => `f ${side.map((v, k) => `${v}/${k + 1}`).join(' ')}`), ''].join('\n'));
 }
 
+/** A black tetrahedron that shines in green. */
+function writeLamp() {
+  const corners = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]];
+  fs.writeFileSync(path.join(folder, 'lamp.glb'), glb(corners, [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+    { pbrMetallicRoughness: { baseColorFactor: [0, 0, 0, 1] }, emissiveFactor: [0, 0.5, 0] }));
+}
+
 /** Small walls in the sun, each of which hides others: many views are needed. */
 function writeSoup(count) {
   const walls = [];
@@ -87,6 +96,7 @@ before(() => {
   fs.copyFileSync(horse, path.join(folder, `${markup}.ply`));
   writeSoup(340);
   writeBox();
+  writeLamp();
 });
 
 /** Share of the window's height that is drawn on. */
@@ -233,6 +243,18 @@ test("shows a file's own texture", async () => {
   assert.ok(asItIs.red > 5000 && asItIs.blue > 5000, JSON.stringify(asItIs));
   await page.click('#show-map');
   assert.equal(await page.evaluate(() => window.vantage.model.asset.visible), false);
+});
+
+test("shows a file's own light", async () => {
+  const [page] = await opened('lamp');
+  const green = await pixels(page, ({ data }) => {
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      count += data[i + 1] > 150 && data[i + 1] > 2 * data[i] && data[i + 1] > 2 * data[i + 2] ? 1 : 0;
+    }
+    return count;
+  });
+  assert.ok(green > 10000, String(green));
 });
 
 test('cameras that name the file fit it where --up any has turned the model', async () => {
