@@ -215,14 +215,13 @@ struct BatchCommand {
     }
     const RunContext run = session.run();
     BatchProgress progress(run, count_entries(session, part));
-    const bool is_logged = isatty(STDERR_FILENO) == 0;
     const auto report = [&](const batch::RunnerCounts& counts, const batch::ModelRecord* record) {
       if (record != nullptr && record->status == "failed") {
         const bool named = record->error.starts_with(record->key);
         session.say(named ? record->error : record->key + ": " + record->error);
       }
       progress.show(counts);
-      if (const auto line = is_logged ? progress.due(counts) : std::nullopt) {
+      if (const auto line = isatty(STDERR_FILENO) == 0 ? progress.due(counts) : std::nullopt) {
         session.say(*line);
       }
     };
@@ -429,12 +428,13 @@ struct BatchCommand {
     });
   }
 
-  /// How many models there are, where somebody watches and it can be known beforehand.
+  /// How many models there are, if progress is told and it can be known beforehand: a pipe can be read but once.
   std::int64_t count_entries(Session& session, const std::optional<batch::Shard>& part) const {
-    const bool watched = isatty(STDERR_FILENO) != 0 && !session.flags.quiet && !session.flags.json;
-    const bool known =
-        manifest != "-" && std::none_of(inputs.begin(), inputs.end(), batch::is_archive);
-    if (!watched || !known) {
+    std::error_code error;
+    const bool is_known = manifest.empty()
+                              ? std::none_of(inputs.begin(), inputs.end(), batch::is_archive)
+                              : std::filesystem::is_regular_file(manifest, error);
+    if (session.flags.quiet || session.flags.json || !is_known) {
       return -1;
     }
     std::unique_ptr<batch::EntrySource> source = open_source(session, /*warn=*/false);
