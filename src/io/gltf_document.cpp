@@ -38,6 +38,13 @@ struct Chunks {
   bool has_binary = false;
 };
 
+/// What to do with a file of another version: gltf-pipeline breaks down on drafts before 1.0.
+std::string only_two(std::string_view version) {
+  const bool is_one = version == "1" || version.starts_with("1.");
+  return std::string(", only 2 is read; ") +
+         (is_one ? "convert it with gltf-pipeline" : "export the model anew, as glTF 2");
+}
+
 /// Splits a GLB file.
 Chunks glb_chunks(std::string_view bytes, const ModelBuilder& builder) {
   constexpr std::size_t kHeaderBytes = 12;
@@ -51,8 +58,8 @@ Chunks glb_chunks(std::string_view bytes, const ModelBuilder& builder) {
     builder.fail("the file is too short for a GLB");
   }
   if (word(4) != 2) {
-    builder.fail({"byte", 4}, "is GLB version " + std::to_string(word(4)) +
-                                  ", only 2 is read; convert it with gltf-pipeline");
+    const std::string version = std::to_string(word(4));
+    builder.fail({"byte", 4}, "is GLB version " + version + only_two(version));
   }
   if (word(8) > bytes.size()) {
     builder.fail({"byte", 8}, "the file should have " + std::to_string(word(8)) +
@@ -211,17 +218,20 @@ void check_version(const Json& root, const ModelBuilder& builder) {
   const auto asset = root.find("asset");
   const bool has_asset = asset != root.end() && asset->is_object();
   const auto version = has_asset ? asset->find("version") : asset;
+  if (has_asset && version != asset->end() && version->is_number()) {  // of drafts
+    const std::string number = version->dump();
+    builder.fail("is glTF version " + number + only_two(number));
+  }
   if (!has_asset || version == asset->end() || !version->is_string()) {
     // Lists of 2.0 were objects in 1.0, keyed by names.
     if (root.contains("accessors") && root["accessors"].is_object()) {
-      builder.fail("is glTF 1.0, only 2 is read; convert it with gltf-pipeline");
+      builder.fail("is glTF 1.0" + only_two("1.0"));
     }
     builder.fail("the JSON has no asset.version, which every glTF has");
   }
   const auto& text = version->get_ref<const std::string&>();
   if (text != "2" && !text.starts_with("2.")) {
-    builder.fail("is glTF version " + in_quotes(text) +
-                 ", only 2 is read; convert it with gltf-pipeline");
+    builder.fail("is glTF version " + in_quotes(text) + only_two(text));
   }
 }
 

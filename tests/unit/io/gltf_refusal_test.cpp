@@ -170,7 +170,8 @@ TEST(Gltf, RefusesBrokenContainers) {
               HasSubstr("byte 8: the file should have"));
   std::string version_one = whole;
   version_one[4] = 1;
-  EXPECT_THAT(error_text(version_one, "a.glb"), HasSubstr("is GLB version 1, only 2 is read"));
+  EXPECT_THAT(error_text(version_one, "a.glb"),
+              HasSubstr("is GLB version 1, only 2 is read; convert it with gltf-pipeline"));
   EXPECT_THAT(error_text("glTF", "a.glb"), HasSubstr("too short for a GLB"));
   EXPECT_THAT(error_text("{\"asset\":", "a.gltf"), HasSubstr("the JSON is not well formed"));
   EXPECT_THAT(error_text("[]", "a.gltf"), HasSubstr("the JSON is not an object"));
@@ -188,8 +189,19 @@ TEST(Gltf, ReadsEveryVersionTwo) {
   };
   EXPECT_EQ(error_of(R"("2"  )"), "nothing");
   EXPECT_EQ(error_of(R"("2.1")"), "nothing");
-  EXPECT_THAT(error_of(R"("1.0")"), HasSubstr("is glTF version '1.0', only 2 is read"));
-  EXPECT_THAT(error_of(R"("20" )"), HasSubstr("is glTF version '20', only 2 is read"));
+  EXPECT_THAT(error_of(R"("1.0")"),
+              HasSubstr("is glTF version '1.0', only 2 is read; convert it with gltf-pipeline"));
+  EXPECT_THAT(error_of(R"("20" )"),
+              HasSubstr("is glTF version '20', only 2 is read; export the model anew, as glTF 2"));
+}
+
+TEST(Gltf, SaysOfADraftNeitherThatItIsVersionOneNorThatGltfPipelineConvertsIt) {
+  for (const char* const version : {"0.8", "'0.9'"}) {
+    const std::string written = version[0] == '\'' ? R"("0.9")" : version;
+    EXPECT_THAT(error_text(R"({"accessors": {"a": {}}, "asset": {"version": )" + written + "}}", "a.gltf"),
+                HasSubstr("is glTF version " + std::string(version) +
+                          ", only 2 is read; export the model anew, as glTF 2"));
+  }
 }
 
 TEST(Gltf, RefusesWrongTypesInTheJson) {
