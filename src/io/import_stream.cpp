@@ -146,12 +146,10 @@ class StreamReader {
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
-    std::string problem = "cannot be read as " + std::string(format_.title) + ": " + reason;
-    // Blender changes its files with each version: many that are whole are not understood.
-    if (format_.name == "blend") {
-      problem += "; " + std::string(import_advice(format_));
-    }
-    builder_.fail(problem);
+    // Many files that are whole are not understood: the fault may be the reader's.
+    builder_.fail("cannot be read as " + std::string(format_.title) + " by " +
+                  (format_.solid ? "Open CASCADE: " : "Assimp: ") + reason + "; " +
+                  std::string(import_advice(format_)));
   }
 
   void read_head(RecordCursor& record) {

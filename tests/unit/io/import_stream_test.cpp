@@ -152,7 +152,8 @@ TEST(ImportStream, RefusesWhatIsCutOrNotAStream) {
 
 TEST(ImportStream, SaysInOneLineWhyNothingCouldBeRead) {
   EXPECT_THAT(error_of(std::string(kImportMagic) + record("fail", "bad\n\x1B[31mfile.")),
-              HasSubstr("cannot be read as FBX: bad  [31mfile"));
+              HasSubstr("cannot be read as FBX by Assimp: bad  [31mfile; convert it to OBJ, PLY or "
+                        "GLB first, for example with meshlab or Blender"));
 }
 
 TEST(ImportStream, RefusesCoordinatesThatAreNoNumbers) {
