@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t half = size / 2;
     reader.add(bytes.substr(0, half));
     reader.add(bytes.substr(half));
-    const vantage::ThreemfPart part = reader.finish();
+    const vantage::PlatePart part = reader.finish();
     for (const auto& [id, object] : part.objects) {
       for (const vantage::Triangle& t : object.triangles) {
         if (std::max({t[0], t[1], t[2]}) >= object.points.size()) {

@@ -22,7 +22,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-SUFFIXES = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".pcd", ".gz", ".drc", ".3mf"}
+SUFFIXES = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".pcd", ".gz", ".drc", ".3mf", ".amf"}
 EYES = [(0, 0, 0), (1e-3, 1e-3, 1e-3), (0.5, 0.5, 0.5), (1e3, -1e3, 10), (-1e12, 1e12, 1e12), (1e-300, 0, 0)]
 BYTES = 8 << 30
 BEGIN, END = "<!-- check_finite begins -->\n", "<!-- check_finite ends -->"

@@ -21,7 +21,7 @@ import time
 
 import break_models
 
-MODELS = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".3mf", ".xyz", ".pcd", ".pts", ".pwn", ".gz", ".drc", ".txt",
+MODELS = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".3mf", ".amf", ".xyz", ".pcd", ".pts", ".pwn", ".gz", ".drc", ".txt",
           ".wrl", ".zip", *("." + ending for ending in break_models.FORMATS.split(","))}
 ITSELF = 100e6  # bytes that the program takes for a file of a few
 SMALL = 1 << 20  # bytes: below, the program itself is most of the memory

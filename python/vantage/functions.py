@@ -20,7 +20,7 @@ _NOTEBOOK_SIZE = (480, 360)
 
 def load(path: Any, *, progress: Any = None, threads: Optional[int] = 0,
          max_faces: Optional[int] = 0) -> Model:
-    """Reads a model: OBJ, OFF, PLY, STL, glTF, GLB, 3MF, or a point cloud XYZ, PTS, PWN, PCD.
+    """Reads a model: OBJ, OFF, PLY, STL, glTF, GLB, 3MF, AMF, or a point cloud XYZ, PTS, PWN, PCD.
 
     path: str, bytes or os.PathLike. max_faces: a model of more faces, or points, is refused; 0:
     what fits into memory.

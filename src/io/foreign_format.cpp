@@ -120,7 +120,6 @@ const ImportFormat* import_of_xml(std::string_view bytes, std::string_view exten
   const bool known = import_format(extension) != nullptr;
   return says(bytes, "<COLLADA") ? import_format("dae")
          : says(bytes, "<X3D")   ? import_format("x3d")
-         : says(bytes, "<amf")   ? import_format("amf")
          : says(bytes, "<WORLD") ? import_format("xgl")
          : known                 ? import_format(extension)
                                  : nullptr;
@@ -200,7 +199,7 @@ const ImportFormat& check_foreign_extension(std::string_view extension, std::str
   }
   throw FormatError(
       name, "",
-      "cannot tell what format this is; OBJ, OFF, PLY, STL, glTF, GLB, 3MF, PCD, XYZ, "
+      "cannot tell what format this is; OBJ, OFF, PLY, STL, glTF, GLB, 3MF, AMF, PCD, XYZ, "
       "PTS and PWN are read, and others by the ending of the file's name: save it with that");
 }
 

@@ -43,6 +43,8 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
         return parse_pcd(bytes, name, run);
       case ModelFormat::Threemf:
         return parse_threemf(bytes, name, run, surroundings);
+      case ModelFormat::Amf:
+        return parse_amf(bytes, name, run, surroundings);
       case ModelFormat::Imported:
         return parse_import_stream(
             surroundings.options.importer({*detected.import_as, bytes, name}, run),

@@ -6,6 +6,7 @@
 
 #include "vantage/core/error.h"
 
+#include "io/amf.h"
 #include "io/foreign_format.h"
 #include "io/number_parsing.h"
 #include "io/readers.h"
@@ -16,8 +17,9 @@
 namespace vantage {
 namespace {
 
-constexpr std::array<std::string_view, 12> kFormatNames = {
-    "obj", "off", "ply", "stl", "gltf", "glb", "xyz", "pts", "pwn", "pcd", "3mf", "imported"};
+constexpr std::array<std::string_view, 13> kFormatNames = {"obj", "off", "ply",     "stl", "gltf",
+                                                           "glb", "xyz", "pts",     "pwn", "pcd",
+                                                           "3mf", "amf", "imported"};
 
 std::optional<ModelFormat> format_of_extension(std::string_view extension) {
   const auto endings = model_endings();
@@ -33,6 +35,9 @@ std::optional<ModelFormat> format_of_magic(std::string_view bytes) {
   }
   if (is_threemf(bytes)) {
     return ModelFormat::Threemf;
+  }
+  if (is_amf(bytes)) {
+    return ModelFormat::Amf;
   }
   if (without_bom(bytes).starts_with("# .PCD")) {
     return ModelFormat::Pcd;
@@ -117,8 +122,12 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name, bool
                                       std::string(format_name(*found)) + " and were read as such"
                                 : ""};
   }
-  if (said == ModelFormat::Threemf && bytes.starts_with("PK")) {
+  if ((said == ModelFormat::Threemf || said == ModelFormat::Amf) && bytes.starts_with("PK")) {
     return {*said, ""};
+  }
+  if (said == ModelFormat::Amf &&
+      (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))) {
+    return {*said, ""};  // XML may be UTF-16
   }
   if (const ImportFormat* const found = check_foreign_bytes(bytes, extension, name, may_import)) {
     const ImportFormat* const named = import_format(extension);

@@ -73,6 +73,11 @@ Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext
 Model parse_threemf(std::string_view bytes, std::string_view name, const RunContext& run,
                     const Surroundings& surroundings);
 
+/// Additive Manufacturing File Format, as XML or in a ZIP archive: objects and constellations, in the
+/// file's unit, with colours.
+Model parse_amf(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings);
+
 /// What a ReadOptions::importer gave, see vantage/io/import_stream.h.
 Model parse_import_stream(std::string_view stream, const ImportFormat& format,
                           std::string_view name, const RunContext& run,

@@ -37,7 +37,7 @@ std::string reason_of(archive* a) {
   return text == nullptr ? std::string("the archive is damaged") : in_quotes(text);
 }
 
-/// The format allows no other ways to pack, and some of them reserve gigabytes.
+/// 3MF allows no other ways to pack, and some of them reserve gigabytes.
 bool is_plain_or_deflated(archive* a) {
   const char* name = archive_format_name(a);
   const std::string_view way = name == nullptr ? "" : name;
@@ -50,7 +50,7 @@ std::size_t read_part(archive* a, const std::string& name, const PartSink& sink,
                       const ModelBuilder& builder) {
   if (!is_plain_or_deflated(a)) {
     builder.fail("part " + in_quotes(name) +
-                 " is packed in a way that 3MF does not allow; write it with deflate");
+                 " is packed in a way that is not read; write it with deflate");
   }
   std::array<char, kBlock> block{};
   std::size_t total = 0;
@@ -93,7 +93,7 @@ void read_package(std::string_view bytes, const PartSink& sink, const ModelBuild
   archive* const a = reader.get();
   archive_read_support_format_zip(a);
   if (archive_read_open_memory(a, bytes.data(), bytes.size()) != ARCHIVE_OK) {
-    builder.fail("is no ZIP archive, which every 3MF file is: " + reason_of(a));
+    builder.fail("is no ZIP archive: " + reason_of(a));
   }
   std::size_t left = kMostTextOfSmallFile + kMostTextPerByte * bytes.size();
   archive_entry* entry = nullptr;

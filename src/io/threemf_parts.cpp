@@ -3,67 +3,26 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <new>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 
 #include <expat.h>
-
-#include "vantage/core/error.h"
 
 #include "core/srgb.h"
 #include "io/number_parsing.h"
 #include "io/text_cursor.h"
 #include "io/threemf_package.h"
+#include "io/xml_reader.h"
 #include "mesh/extent.h"
 
 namespace vantage {
 namespace {
 
-/// Between the namespace of an element and its name, as expat is told to write them.
-constexpr XML_Char kBetween = '|';
-
-/// The name without its namespace.
-std::string_view local(std::string_view whole) {
-  return whole.substr(whole.rfind(kBetween) + 1);
-}
-
-/// Attributes of an element, as expat hands them over.
-class Attributes {
- public:
-  explicit Attributes(const XML_Char** list) : list_(list) {}
-
-  [[nodiscard]] std::optional<std::string_view> text(std::string_view name) const {
-    for (const XML_Char** at = list_; *at != nullptr; at += 2) {
-      if (local(at[0]) == name) {
-        return at[1];
-      }
-    }
-    return std::nullopt;
-  }
-
-  /// A number from 0 to 2³² − 2.
-  [[nodiscard]] std::optional<std::uint32_t> index(std::string_view name) const {
-    const auto value = integer_from(trimmed(text(name).value_or("")));
-    return value && *value >= 0 && *value < std::int64_t{Appearance::kNone}
-               ? std::optional(static_cast<std::uint32_t>(*value))
-               : std::nullopt;
-  }
-
- private:
-  const XML_Char** list_;
-};
-
 /// Of the elements and attributes that files hold in thousands.
 constexpr std::array<std::string_view, 18> kUsualNames{
     "vertex", "x",    "y",     "z",        "triangle",  "v1",     "v2",   "v3",        "pid",
     "p1",     "item", "color", "objectid", "transform", "object", "base", "component", "id"};
-
-bool is_usual(std::string_view name) {
-  return std::find(kUsualNames.begin(), kUsualNames.end(), name) != kUsualNames.end();
-}
 
 constexpr std::size_t kMostUnread = 5;  // [ours] more would say nothing new
 
@@ -84,9 +43,9 @@ bool is_read(std::string_view extension) {
 
 /// The name without its namespace; empty if that is an extension that is not read: slices have vertices, too.
 std::string_view name_if_read(std::string_view whole) {
-  const std::string_view space = whole.substr(0, whole.size() - local(whole).size());
+  const std::string_view space = whole.substr(0, whole.size() - xml_local(whole).size());
   const std::string_view extension = extension_name(space);
-  return extension.size() == space.size() || is_read(extension) ? local(whole) : "";
+  return extension.size() == space.size() || is_read(extension) ? xml_local(whole) : "";
 }
 
 /// Half a byte, or 16.
@@ -119,127 +78,26 @@ Material material_of(std::string_view text) {
   return material;
 }
 
-struct FreeParser {
-  void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
-};
-
-using Parser = std::unique_ptr<XML_ParserStruct, FreeParser>;
-
 }  // namespace
 
-/// Where the reader is in the document. expat is C: what is thrown inside its calls is kept and
-/// thrown again outside.
-class ThreemfPartReader::State {
+/// Where the reader is in the document.
+class ThreemfPartReader::State : public XmlReader {
  public:
   State(const std::string& name, const ModelBuilder& builder, std::size_t& records_left)
-      : name_(name),
-        builder_(builder),
-        records_left_(records_left),
-        parser_(XML_ParserCreateNS(nullptr, kBetween)) {
-    if (parser_ == nullptr) {
-      throw std::bad_alloc();
-    }
-    XML_SetUserData(parser_.get(), this);
-    XML_SetElementHandler(parser_.get(), &on_start, &on_end);
-    XML_SetStartNamespaceDeclHandler(parser_.get(), &on_namespace);
-    XML_SetStartDoctypeDeclHandler(parser_.get(), &on_document_type);
-  }
+      : XmlReader(builder, "part " + in_quotes(name) + ", ", kUsualNames, records_left) {}
 
-  void add(std::string_view piece, bool is_last) {
-    const XML_Status status =
-        XML_Parse(parser_.get(), piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0);
-    if (failure_) {
-      std::rethrow_exception(failure_);
-    }
-    if (status != XML_STATUS_OK) {
-      fail(std::string("is not well-formed XML: ") +
-           XML_ErrorString(XML_GetErrorCode(parser_.get())));
-    }
-    // expat keeps what is not whole yet, and begins it anew with each piece.
-    added_ += static_cast<XML_Index>(piece.size());
-    if (added_ - XML_GetCurrentByteIndex(parser_.get()) >
-        static_cast<XML_Index>(kLongestThreemfElement + piece.size())) {
-      fail("an element is longer than any of a 3D model");
-    }
-  }
-
-  ThreemfPart finish() {
-    add({}, true);
+  PlatePart finish() {
+    end();
     return std::move(part_);
   }
 
  private:
-  static void on_start(void* state, const XML_Char* name, const XML_Char** attributes) {
-    static_cast<State*>(state)->guarded([&](State& self) {
-      self.count_name(name);
-      for (const XML_Char** at = attributes; *at != nullptr; at += 2) {
-        self.count_name(at[0]);
-      }
-      self.start(name_if_read(name), Attributes(attributes));
-    });
+  void name_space(std::string_view prefix, std::string_view uri) override {
+    namespaces_[std::string(prefix)] = uri;
   }
 
-  static void on_namespace(void* state, const XML_Char* prefix, const XML_Char* uri) {
-    static_cast<State*>(state)->guarded([&](State& self) {
-      for (const XML_Char* name : {prefix, uri}) {
-        self.count_name(name == nullptr ? "" : name);
-      }
-      if (prefix != nullptr && uri != nullptr && self.depth_ == 0) {
-        self.namespaces_[prefix] = uri;
-      }
-    });
-  }
-
-  static void on_end(void* state, const XML_Char* name) {
-    static_cast<State*>(state)->guarded([&](State& self) { self.end(name_if_read(name)); });
-  }
-
-  static void on_document_type(void* state, const XML_Char* /*name*/, const XML_Char* /*system*/,
-                               const XML_Char* /*publisher*/, int /*has_subset*/) {
-    static_cast<State*>(state)->guarded(
-        [](State& self) { self.fail("has a document type, which 3MF does not allow"); });
-  }
-
-  template <class Step>
-  void guarded(const Step& step) {
-    if (failure_) {
-      return;
-    }
-    try {
-      step(*this);
-    } catch (...) {
-      failure_ = std::current_exception();
-      XML_StopParser(parser_.get(), XML_FALSE);
-    }
-  }
-
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw FormatError(builder_.name(),
-                      "part " + in_quotes(name_) + ", line " +
-                          std::to_string(XML_GetCurrentLineNumber(parser_.get())),
-                      problem);
-  }
-
-  /// Takes room for something that is kept.
-  void spend() {
-    if (records_left_ == 0) {
-      fail("more objects, items and colours than the size of the file allows");
-    }
-    --records_left_;
-  }
-
-  /// expat keeps all that it meets.
-  void count_name(std::string_view name) {
-    if (!is_usual(local(name)) && names_.emplace(name).second &&
-        names_.size() > kMostThreemfNames) {
-      fail("has more kinds of elements and attributes than any 3D model");
-    }
-  }
-
-  void start(std::string_view element, const Attributes& attributes) {
-    if (++depth_ > kDeepestThreemfElement) {
-      fail("its elements are nested deeper than any of a 3D model");
-    }
+  void start_element(std::string_view whole, const XmlAttributes& attributes) override {
+    const std::string_view element = name_if_read(whole);
     if (element == "vertex") {
       add_vertex(attributes);
     } else if (element == "triangle") {
@@ -263,9 +121,8 @@ class ThreemfPartReader::State {
     }
   }
 
-  void end(std::string_view element) {
-    --depth_;
-    if (element == "object") {
+  void end_element(std::string_view whole) override {
+    if (name_if_read(whole) == "object") {
       object_ = nullptr;
     }
   }
@@ -284,7 +141,7 @@ class ThreemfPartReader::State {
     }
   }
 
-  void add_colour(std::string_view element, const Attributes& attributes) {
+  void add_colour(std::string_view element, const XmlAttributes& attributes) {
     if (element == "basematerials" || element == "colorgroup") {
       const auto id = attributes.index("id");
       spend();
@@ -300,7 +157,7 @@ class ThreemfPartReader::State {
     }
   }
 
-  void begin_object(const Attributes& attributes) {
+  void begin_object(const XmlAttributes& attributes) {
     const auto id = attributes.index("id");
     if (!id) {
       fail("an object has no id");
@@ -325,30 +182,24 @@ class ThreemfPartReader::State {
                                                                             : Appearance::kNone;
   }
 
-  double coordinate(const Attributes& attributes, std::string_view name) {
+  double axis(const XmlAttributes& attributes, std::string_view name) {
     const std::optional<std::string_view> text = attributes.text(name);
     if (!text) {
       fail("a vertex has no " + std::string(name));
     }
-    const std::string_view token = trimmed(*text);
-    const std::optional<double> value = number_from(token);
-    if (!value || !(std::abs(*value) <= kLargestCoordinate)) {
-      fail(value ? "a coordinate is not finite, or beyond 1e60" : number_problem(token));
-    }
-    part_.needs_double = part_.needs_double || needs_double(token, *value);
-    return *value;
+    return coordinate(*text, part_.needs_double);
   }
 
-  void add_vertex(const Attributes& attributes) {
+  void add_vertex(const XmlAttributes& attributes) {
     if (object_ == nullptr) {
       fail("a vertex belongs to no object");
     }
-    const double x = coordinate(attributes, "x");
-    const double y = coordinate(attributes, "y");
-    object_->points.emplace_back(x, y, coordinate(attributes, "z"));
+    const double x = axis(attributes, "x");
+    const double y = axis(attributes, "y");
+    object_->points.emplace_back(x, y, axis(attributes, "z"));
   }
 
-  void add_triangle(const Attributes& attributes) {
+  void add_triangle(const XmlAttributes& attributes) {
     if (object_ == nullptr) {
       fail("a triangle belongs to no object");
     }
@@ -370,13 +221,13 @@ class ThreemfPartReader::State {
                                         : object_material_);
   }
 
-  ThreemfUse use(const Attributes& attributes) {
+  PlateUse use(const XmlAttributes& attributes) {
     spend();
     const auto object = attributes.index("objectid");
     if (!object) {
       fail("something is shown that has no objectid");
     }
-    ThreemfUse use;
+    PlateUse use;
     use.object = *object;
     use.part = part_name(attributes.text("path").value_or(""));
     use.transform = unmoved();
@@ -393,17 +244,9 @@ class ThreemfPartReader::State {
     return use;
   }
 
-  const std::string name_;
-  const ModelBuilder& builder_;
-  std::size_t& records_left_;
-  Parser parser_;
-  XML_Index added_ = 0;  ///< Bytes of the part.
-  int depth_ = 0;
   std::map<std::string, std::string, std::less<>> namespaces_{};  ///< Of the root, by prefix.
-  std::unordered_set<std::string> names_{};                       ///< But for the usual ones.
-  std::exception_ptr failure_{};
-  ThreemfPart part_{};
-  ThreemfObject* object_ = nullptr;  ///< Being read; a map keeps its place.
+  PlatePart part_{};
+  PlateObject* object_ = nullptr;  ///< Being read; a map keeps its place.
   std::map<std::uint32_t, std::vector<std::uint32_t>> groups_{};  ///< Materials of each group.
   std::vector<std::uint32_t>* group_ = nullptr;                   ///< Being read.
   std::optional<std::uint32_t> object_colours_{};
@@ -417,10 +260,10 @@ ThreemfPartReader::ThreemfPartReader(const std::string& name, const ModelBuilder
 ThreemfPartReader::~ThreemfPartReader() = default;
 
 void ThreemfPartReader::add(std::string_view piece) {
-  state_->add(piece, false);
+  state_->add(piece);
 }
 
-ThreemfPart ThreemfPartReader::finish() {
+PlatePart ThreemfPartReader::finish() {
   return state_->finish();
 }
 
@@ -429,16 +272,16 @@ std::string threemf_root(std::string_view relationships) {
     std::string target{};
   } found;
 
-  const Parser parser(XML_ParserCreateNS(nullptr, kBetween));
+  const XmlParser parser(XML_ParserCreateNS(nullptr, kXmlBetween));
   if (parser == nullptr) {
     throw std::bad_alloc();
   }
   XML_SetUserData(parser.get(), &found);
   XML_SetStartElementHandler(
       parser.get(), [](void* state, const XML_Char* name, const XML_Char** attributes) {
-        const Attributes list(attributes);
-        const bool is_model =
-            local(name) == "Relationship" && list.text("Type").value_or("").ends_with("/3dmodel");
+        const XmlAttributes list(attributes);
+        const bool is_model = xml_local(name) == "Relationship" &&
+                              list.text("Type").value_or("").ends_with("/3dmodel");
         if (is_model) {
           static_cast<Found*>(state)->target = part_name(list.text("Target").value_or(""));
         }

@@ -82,7 +82,9 @@ std::string_view up_name(UpAxis axis) {
 
 UpAxis default_up(ModelFormat format) {
   // A printer's plate lies in x and y.
-  return format == ModelFormat::Stl || format == ModelFormat::Threemf ? UpAxis::Z : UpAxis::Y;
+  const bool is_of_printers = format == ModelFormat::Stl || format == ModelFormat::Threemf ||
+                              format == ModelFormat::Amf;
+  return is_of_printers ? UpAxis::Z : UpAxis::Y;
 }
 
 UpAxis default_up(const Model& model) {

@@ -74,10 +74,7 @@ class Import(ProgramTest):
             GeometryObject $b {{Mesh (primitive = "triangles") {{VertexArray (attrib = "position") {{float[3] {{{}}}}}
             IndexArray {{unsigned_int32[3] {{{}}}}}}}}}""".format(
                 *(", ".join(str(row).replace("(", "{").replace(")", "}") for row in rows) for rows in (CORNERS, SIDES)))
-        amf = '<?xml version="1.0"?><amf><object id="0"><mesh><vertices>{}</vertices><volume>{}</volume></mesh></object></amf>'.format(
-            "".join("<vertex><coordinates><x>{}</x><y>{}</y><z>{}</z></coordinates></vertex>".format(*c) for c in CORNERS),
-            "".join("<triangle><v1>{}</v1><v2>{}</v2><v3>{}</v3></triangle>".format(*s) for s in SIDES))
-        for name, content, up in (("a.blend", blend_file(CORNERS, SIDES), "z"), ("a.amf", amf, "z"), ("a.ogex", ogex, "z"),
+        for name, content, up in (("a.blend", blend_file(CORNERS, SIDES), "z"), ("a.ogex", ogex, "z"),
                                   ("y.ogex", 'Metric (key = "up") {string {"y"}}\n' + ogex, "y")):
             info = self.info(self.write(name, content))
             self.assertEqual((info["up"], info["box"]["high"], info["welded"]["closed"]), (up, [4, 3, 2], True), name)
@@ -102,6 +99,23 @@ class Import(ProgramTest):
             self.vantage("thumb", DATA / name, "with.png", "-s", "64", "--force")
             self.vantage("thumb", DATA / name, "without.png", "-s", "64", "--force", "--style", "clay")
             self.assertNotEqual((self.dir / "with.png").read_bytes(), (self.dir / "without.png").read_bytes(), name)
+
+    def test_black_that_cannot_be_seen_is_no_colour(self):
+        for colour, is_one in (("0 0 0 0", False), ("0 0 0 1", True)):
+            self.write("a.dae", f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+                <library_geometries><geometry id="g"><mesh>
+                <source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+                <accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+                <param name="Z" type="float"/></accessor></technique_common></source>
+                <source id="c"><float_array id="b" count="4">{colour}</float_array><technique_common>
+                <accessor source="#b" count="1" stride="4"><param name="R" type="float"/><param name="G" type="float"/>
+                <param name="B" type="float"/><param name="A" type="float"/></accessor></technique_common></source>
+                <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+                <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+                <input semantic="COLOR" source="#c" offset="1" set="0"/><p>0 0 1 0 2 0</p></triangles></mesh></geometry></library_geometries>
+                <library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+                </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>""")
+            self.assertEqual(self.info(self.dir / "a.dae")["vertex_colours"], is_one, colour)
 
     def test_results_are_the_same_bytes_again(self):
         for folder in ("a", "b"):

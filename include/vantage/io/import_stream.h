@@ -55,7 +55,7 @@ constexpr std::string_view import_advice(const ImportFormat& format) {
 
 /// All of them. What the library reads itself is not among them, nor are scenes that only name other
 /// files, which the program may not open.
-inline constexpr std::array<ImportFormat, 42> kImportFormats = {{
+inline constexpr std::array<ImportFormat, 41> kImportFormats = {{
     {"step", "step", "STEP", true},
     {"stp", "step", "STEP", true},
     {"p21", "step", "STEP", true},
@@ -94,7 +94,6 @@ inline constexpr std::array<ImportFormat, 42> kImportFormats = {{
     {"dxf", "dxf", "DXF", false},
     {"ifc", "ifc", "IFC", false},
     {"x3d", "x3d", "X3D", false},
-    {"amf", "amf", "AMF", false},
     {"ogex", "ogex", "OpenGEX", false},
     {"sib", "sib", "Silo", false},
     {"pmx", "pmx", "MikuMikuDance", false},

@@ -21,7 +21,7 @@
 /// \file
 /// Reading models. Vertex order is sacred: vertex i of the result is vertex i of the file (for
 /// .stl the welded vertices in order of first appearance; for glTF the concatenated primitives in
-/// world space, for 3MF the objects in the order in which they are built), because every per-vertex
+/// world space, for 3MF and AMF the objects in the order in which they are built), because every per-vertex
 /// result refers to it.
 /// A model whose materials make every face invisible is read as opaque, with a note: older MeshLab
 /// wrote `Tr 1.0` for what is opaque.
@@ -29,7 +29,21 @@
 namespace vantage {
 
 /// File formats that can be read. Imported: one of kImportFormats, by ReadOptions::importer.
-enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb, Xyz, Pts, Pwn, Pcd, Threemf, Imported };
+enum class ModelFormat {
+  Obj,
+  Off,
+  Ply,
+  Stl,
+  Gltf,
+  Glb,
+  Xyz,
+  Pts,
+  Pwn,
+  Pcd,
+  Threemf,
+  Amf,
+  Imported
+};
 
 /// How names of files end that are read without an importer: lower case, without the dot.
 std::span<const std::string_view> model_endings();
@@ -37,8 +51,8 @@ std::span<const std::string_view> model_endings();
 /// Lower-case name as used in results, e.g. "obj".
 std::string_view format_name(ModelFormat format);
 
-/// A named run of triangles: an OBJ group or object, a solid of a text STL, a glTF node, a 3MF object, a part of
-/// an imported model.
+/// A named run of triangles: an OBJ group or object, a solid of a text STL, a glTF node, an object of 3MF or AMF, a part
+/// of an imported model.
 struct ModelPart {
   std::string name{};              ///< As in the file.
   std::size_t first_triangle = 0;  ///< Index into the mesh's triangles.
@@ -52,6 +66,7 @@ struct Model {
   ModelFormat format = ModelFormat::Obj;  ///< What it was read as.
   TriMesh mesh{};                         ///< Polygons already triangulated. Faces may be absent.
   std::vector<Rgb8> vertex_colours{};     ///< |V| sRGB colours, or empty.
+  bool colours_are_materials = false;     ///< `vertex_colours` are none but those of materials.
   std::vector<ModelPart> parts{};         ///< In file order; may be empty.
   Appearance appearance{};                ///< Materials, if asked for and there.
   bool double_precision = false;          ///< Coordinates carry more digits than float holds.

@@ -49,7 +49,7 @@ inline constexpr const char* kUpWords = "x|y|z|-x|-y|-z|any|auto";
 inline constexpr const char* kFrontWords = "x|y|z|-x|-y|-z|auto";  ///< The same of a front.
 /// "x", "-y", …
 std::string_view up_name(UpAxis axis);
-/// The axis a format implies when nothing is said: z for STL and 3MF, y otherwise.
+/// The axis a format implies when nothing is said: z for STL, 3MF and AMF, y otherwise.
 UpAxis default_up(ModelFormat format);
 /// The same for a model, which may say it itself, or be in coordinates of a map, where the height is up.
 UpAxis default_up(const Model& model);
@@ -190,8 +190,8 @@ inline constexpr auto kViewFields = std::tuple{
           "vertical field of view of the scoring camera", "degrees"},
     Choice{"up", &ViewOptions::up, kUpWords,
            "up axis of the model; auto: what its shape says, or if that is unsure its format's: z "
-           "for STL and 3MF, y otherwise; any: it may also be off the axes: the model is turned "
-           "first"},
+           "for STL, 3MF and AMF, y otherwise; any: it may also be off the axes: the model is "
+           "turned first"},
     Choice{"front", &ViewOptions::front, kFrontWords,
            "axis that points from the model to a viewer in front; auto: what its shape says, or if "
            "that is unsure z, where z is up -y"},

@@ -67,8 +67,8 @@ TEST_P(CorpusReplay, GivesAModelWithValidIndicesOrAFormatError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, CorpusReplay,
-                         testing::Values("obj", "off", "ply", "stl", "gltf", "glb", "3mf", "pcd",
-                                         "pts", "pwn", "xyz"));
+                         testing::Values("obj", "off", "ply", "stl", "gltf", "glb", "3mf", "amf",
+                                         "pcd", "pts", "pwn", "xyz"));
 
 TEST(CorpusReplay, CamerasGiveAResultOrAFormatError) {
   EXPECT_GT(replay("camera",
