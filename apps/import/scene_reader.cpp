@@ -152,14 +152,22 @@ std::string part_name(const aiNode& node, const aiMesh& mesh) {
   return named ? node.mName.C_Str() : mesh.mName.C_Str();
 }
 
+/// Some readers fill in black that cannot be seen where a file has no colours.
+bool has_vertex_colours(const aiMesh& mesh) {
+  return mesh.HasVertexColors(0) &&
+         std::any_of(mesh.mColors[0], mesh.mColors[0] + mesh.mNumVertices,
+                     [](const aiColor4D& c) { return c != aiColor4D(0.0F, 0.0F, 0.0F, 0.0F); });
+}
+
 void add_vertices(const aiMesh& mesh, const aiMatrix4x4& place, StreamMesh& result) {
   result.positions.reserve(std::size_t{3} * mesh.mNumVertices);
+  const bool has_colours = has_vertex_colours(mesh);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const aiVector3D p = place * mesh.mVertices[v];
     result.positions.insert(
         result.positions.end(),
         {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
-    if (mesh.HasVertexColors(0)) {
+    if (has_colours) {
       const aiColor4D& c = mesh.mColors[0][v];
       result.colours.insert(result.colours.end(), {c.r, c.g, c.b});
     }
@@ -222,8 +230,8 @@ void send_nodes(const aiScene& scene, StreamWriter& out) {
 }
 
 /// Formats in which z is up and that Assimp leaves so. Others have y up, or it turns them.
-constexpr std::array<std::string_view, 8> kZUp = {"blend", "cob", "scn", "smd",
-                                                  "amf",   "hmp", "q3o", "q3s"};
+constexpr std::array<std::string_view, 7> kZUp = {"blend", "cob", "scn", "smd",
+                                                  "hmp",   "q3o", "q3s"};
 
 /// Whether an OpenGEX file says that y is up; else it is z, by its specification.
 bool is_y_up_in_ogex(std::string_view bytes) {
