@@ -75,7 +75,7 @@ struct InfoCommand {
         {"larger_polygons", loaded.larger_polygons},
         {"skipped_faces", loaded.skipped_faces},
         {"faces", as_read.faces},
-        {"vertex_colours", !loaded.vertex_colours.empty()},
+        {"vertex_colours", !loaded.vertex_colours.empty() && !loaded.colours_are_materials},
         {"materials", loaded.appearance.materials.size()},
         {"textures", loaded.appearance.textures.size()},
         {"double_precision", loaded.double_precision},
@@ -120,7 +120,9 @@ struct InfoCommand {
     const Vec3 size = bounding_box(loaded.mesh.positions).size();
     session.tell(printable(loaded.name) + " (" + std::string(format_name(loaded)) + ")");
     line("vertices", grouped(as_read.vertices) +
-                         (loaded.vertex_colours.empty() ? "" : ", with colours") +
+                         (loaded.vertex_colours.empty()  ? ""
+                          : loaded.colours_are_materials ? ", with colours of materials"
+                                                         : ", with colours") +
                          (loaded.double_precision ? ", double precision" : ""));
     line("faces", polygons(loaded, as_read));
     if (loaded.parts.size() > 1) {

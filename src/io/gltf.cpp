@@ -71,6 +71,8 @@ class SceneReader {
     }
   }
 
+  [[nodiscard]] bool vertices_have_colours() const { return vertices_have_colours_; }
+
  private:
   /// Goes to every node that is shown.
   void walk() {
@@ -341,6 +343,7 @@ class SceneReader {
         has_clear_ |= colours.components() > 3 && colours.value(i, 3) < 1.0;
         values[i] = {colours.value(i, 0), colours.value(i, 1), colours.value(i, 2)};
       }
+      vertices_have_colours_ = true;
     } catch (const FormatError&) {  // the shape is sound without them
       ++uncoloured_primitives_;
     }
@@ -459,6 +462,7 @@ class SceneReader {
   std::size_t budget_ = 0;
   std::size_t visits_left_ = 0;
   bool has_clear_ = false;              // a vertex is not opaque
+  bool vertices_have_colours_ = false;  // of their own
   bool surfaces_have_colours_ = false;  // of what is shown
   bool points_have_colours_ = false;
   std::size_t hidden_nodes_ = 0;
@@ -477,8 +481,11 @@ Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext
     builder.keep_appearance(/*of_vertices=*/true);
   }
   const GltfDocument document = read_gltf_document(bytes, surroundings, builder);
-  SceneReader(document, surroundings.options.max_faces, builder).read();
-  return builder.finish();
+  SceneReader reader(document, surroundings.options.max_faces, builder);
+  reader.read();
+  Model model = builder.finish();
+  model.colours_are_materials = !model.vertex_colours.empty() && !reader.vertices_have_colours();
+  return model;
 }
 
 }  // namespace vantage

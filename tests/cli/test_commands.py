@@ -1,8 +1,10 @@
 """Every command other than view."""
 
+import base64
 import json
 import math
 import os
+import struct
 import unittest
 
 from program import MODELS, ProgramTest, read_ply
@@ -257,6 +259,21 @@ class Info(ProgramTest):
         self.assertIn("gone.png", done.err)
         info = json.loads(self.vantage("info", "m.obj", "--json").out)
         self.assertEqual((info["materials"], info["textures"]), (2, 1))
+
+    def test_info_tells_colours_of_materials_from_those_of_vertices(self):
+        triangle = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
+        gltf = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+                "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                "buffers": [{"byteLength": 36, "uri": "data:;base64," + triangle}]}
+        for own, says in ((False, "3, with colours of materials"), (True, "3, with colours")):
+            if own:
+                gltf["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 0
+            self.write("a.gltf", json.dumps(gltf))
+            self.assertRegex(self.vantage("info", "a.gltf").out, rf"vertices +{says}\n")
+            self.assertEqual(json.loads(self.vantage("info", "--json", "a.gltf").out)["vertex_colours"], own)
 
     def test_json_counts_defects(self):
         self.write("open.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 9 9\n3 0 1 2\n3 1 3 2\n")

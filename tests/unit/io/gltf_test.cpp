@@ -202,6 +202,7 @@ TEST(Gltf, TakesTheBaseColourOfAMaterialWhereVerticesHaveNone) {
   scene.more =
       R"(,"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0.50196078431,1]}}])";
   EXPECT_EQ(scene.parsed().vertex_colours[3], (Rgb8{255, 0, 188}));  // as below
+  EXPECT_TRUE(scene.parsed().colours_are_materials);
 }
 
 TEST(Gltf, MaterialsThatMakeNoSenseAreWhite) {
@@ -242,6 +243,7 @@ TEST(Gltf, TurnsLinearColoursIntoSrgb) {
   scene.primitive = R"({"attributes":{"POSITION":0,"COLOR_0":2}})";
   // 0x80 / 255 = 0.502 linear is 1.055 · 0.502^(1/2.4) − 0.055 = 0.7367, times 255 = 187.9
   EXPECT_EQ(scene.parsed().vertex_colours[0], (Rgb8{255, 0, 188}));
+  EXPECT_FALSE(scene.parsed().colours_are_materials);
   EXPECT_THAT(scene.parsed().notes, Contains(HasSubstr("the opacity of vertices")));  // of 0
 }
 
