@@ -82,8 +82,8 @@ std::string_view up_name(UpAxis axis) {
 
 UpAxis default_up(ModelFormat format) {
   // A printer's plate lies in x and y.
-  const bool is_of_printers = format == ModelFormat::Stl || format == ModelFormat::Threemf ||
-                              format == ModelFormat::Amf;
+  const bool is_of_printers =
+      format == ModelFormat::Stl || format == ModelFormat::Threemf || format == ModelFormat::Amf;
   return is_of_printers ? UpAxis::Z : UpAxis::Y;
 }
 

@@ -198,9 +198,10 @@ TEST(Gltf, ReadsEveryVersionTwo) {
 TEST(Gltf, SaysOfADraftNeitherThatItIsVersionOneNorThatGltfPipelineConvertsIt) {
   for (const char* const version : {"0.8", "'0.9'"}) {
     const std::string written = version[0] == '\'' ? R"("0.9")" : version;
-    EXPECT_THAT(error_text(R"({"accessors": {"a": {}}, "asset": {"version": )" + written + "}}", "a.gltf"),
-                HasSubstr("is glTF version " + std::string(version) +
-                          ", only 2 is read; export the model anew, as glTF 2"));
+    EXPECT_THAT(
+        error_text(R"({"accessors": {"a": {}}, "asset": {"version": )" + written + "}}", "a.gltf"),
+        HasSubstr("is glTF version " + std::string(version) +
+                  ", only 2 is read; export the model anew, as glTF 2"));
   }
 }
 

@@ -41,13 +41,13 @@ TEST(ModelFormat, TheContentDecidesWhereTheNameIsWrong) {
   const std::string text_stl = "solid x\nfacet";
   const std::string obj = "# hi\nv 1 2 3\n";
   const std::string gltf = " {\"asset\":{}}";
-  for (const char* name : {"a.obj", "a.ply", "a.off", "a.glb", "a.gltf", "a.3mf", "a.amf",
-                           "a.xyz"}) {
+  for (const char* name :
+       {"a.obj", "a.ply", "a.off", "a.glb", "a.gltf", "a.3mf", "a.amf", "a.xyz"}) {
     EXPECT_EQ(detect_format(binary_stl, name).format, ModelFormat::Stl) << name;
     EXPECT_EQ(detect_format(text_stl, name).format, ModelFormat::Stl) << name;
   }
-  for (const char* name : {"a.stl", "a.ply", "a.off", "a.glb", "a.gltf", "a.3mf", "a.amf",
-                           "a.pts"}) {
+  for (const char* name :
+       {"a.stl", "a.ply", "a.off", "a.glb", "a.gltf", "a.3mf", "a.amf", "a.pts"}) {
     EXPECT_EQ(detect_format(obj, name).format, ModelFormat::Obj) << name;
   }
   for (const char* name : {"a.stl", "a.ply", "a.obj", "a.glb", "a.3mf"}) {
