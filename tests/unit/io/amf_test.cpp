@@ -278,8 +278,8 @@ TEST(AmfError, RefusesInstancesThatDoubleAtEveryLevel) {
   std::string content = solid("0");
   for (int level = 1; level <= 40; ++level) {
     const std::string below = "<instance objectid=\"" + std::to_string(level - 1) + "\"/>";
-    content +=
-        "<constellation id=\"" + std::to_string(level) + "\">" + below + below + "</constellation>";
+    content += "<constellation id=\"" + std::to_string(level) + "\">";
+    content.append(below).append(below).append("</constellation>");
   }
   EXPECT_THAT(error_of(content), HasSubstr("out of proportion"));
 }
