@@ -87,9 +87,9 @@ class Time(ProgramTest):
 
     def setUp(self):
         super().setUp()
-        for i in range(8):
-            self.write(f"m{i}.off", box(1 + i / 10))
-        self.names = [f"m{i}.off" for i in range(8)]
+        self.names = [f"m{i}.off" for i in range(4)]
+        for i, name in enumerate(self.names):
+            self.write(name, box(1 + i / 10))
         # Long enough for something to happen meanwhile.
         self.run_words = ("--search", "rapid", "--size", "48", "--jobs", "2", "--contraction", "auto", "-q")
 
@@ -103,8 +103,10 @@ class Time(ProgramTest):
     def test_a_batch_that_is_stopped_and_goes_on_ends_as_any_other(self):
         self.vantage("batch", *self.names, "-o", "whole", *self.run_words)
         with self.start("paused") as process:
-            for _ in range(3):
-                time.sleep(0.2)
+            for results in range(3):  # two are computed at a time, so that then as many are left
+                while process.poll() is None and len(list(self.dir.glob("paused/models/*/view.json"))) < results:
+                    time.sleep(0.01)
+                self.assertIsNone(process.poll(), "the batch has ended before it was stopped")
                 os.killpg(process.pid, signal.SIGSTOP)
                 time.sleep(0.5)
                 os.killpg(process.pid, signal.SIGCONT)

@@ -7,9 +7,9 @@ import shutil
 import subprocess
 import unittest
 
-from program import MODELS, PROGRAM, ProgramTest
+from program import PROGRAM, ProgramTest
 
-MODEL = MODELS / "cat_lowpoly.ply"
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # drawn as quickly as anything
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 
 
@@ -22,9 +22,10 @@ class Settings(ProgramTest):
         self.addCleanup(os.environ.clear)
         os.environ.clear()
         os.environ.update(clean)
+        self.write("t.obj", TRIANGLE)
 
     def thumbnail_width(self, *arguments):
-        self.vantage("thumb", MODEL, "t.png", "--quality", "draft", *arguments)
+        self.vantage("thumb", "t.obj", "t.png", "--quality", "draft", *arguments)
         return int.from_bytes((self.dir / "t.png").read_bytes()[16:20], "big")
 
     def test_an_option_comes_from_the_command_line_then_its_commands_variable_then_the_common_one_then_the_file(self):
@@ -57,16 +58,16 @@ class Settings(ProgramTest):
     def test_a_flag_can_be_set_and_left_unset(self):
         for value, written in (("true", True), ("1", True), ("false", False), ("0", False)):
             os.environ["VANTAGE_JSON"] = value
-            self.assertEqual(self.vantage("info", MODEL).out.startswith("{"), written, value)
+            self.assertEqual(self.vantage("info", "t.obj").out.startswith("{"), written, value)
 
     def test_a_variable_does_not_contradict_what_the_command_line_excludes(self):
         os.environ["VANTAGE_OUTPUT"] = "other.png"  # FILE and --output exclude each other
-        self.vantage("thumb", MODEL, "t.png", "--size", "32")
-        self.assertEqual({path.name for path in self.dir.iterdir()}, {"t.png"})
+        self.vantage("thumb", "t.obj", "t.png", "--size", "32")
+        self.assertEqual({path.name for path in self.dir.iterdir()}, {"t.obj", "t.png"})
 
     def test_a_variable_of_a_commands_that_sets_nothing_is_told(self):
         os.environ.update({"VANTAGE_THUMB_SIZEE": "64", "VANTAGE_VIEW_SIZEE": "64", "VANTAGE_DATA": "x"})
-        thumb = ("thumb", MODEL, "t.png", "--size", "32")
+        thumb = ("thumb", "t.obj", "t.png", "--size", "32")
         self.assertEqual(self.vantage(*thumb).err, "warning: VANTAGE_THUMB_SIZEE is the name of no option of vantage thumb; "
                                                    "did you mean VANTAGE_THUMB_SIZE?\n")
         for flag in (("-q",), ("--config", "none")):
@@ -96,20 +97,20 @@ class Settings(ProgramTest):
                  ("[1]", "c.json: holds no JSON object"))
         for text, message in cases:
             self.write("c.json", text)
-            done = self.vantage("thumb", MODEL, "t.png", "--config", "c.json", exit_code=2)
+            done = self.vantage("thumb", "t.obj", "t.png", "--config", "c.json", exit_code=2)
             self.assertIn(f"vantage: {message}", done.err)
             self.assertEqual(done.err.count("\n"), 1)
         self.assertIn("absent.json: cannot be read",
-                      self.vantage("thumb", MODEL, "t.png", "--config", "absent.json", exit_code=2).err)
+                      self.vantage("thumb", "t.obj", "t.png", "--config", "absent.json", exit_code=2).err)
         os.environ["VANTAGE_GROUND"] = "maybe"
         self.assertIn("VANTAGE_GROUND: is a flag",
-                      self.vantage("thumb", MODEL, "t.png", exit_code=2).err)
+                      self.vantage("thumb", "t.obj", "t.png", exit_code=2).err)
         self.assertFalse((self.dir / "t.png").exists())
 
     def test_a_flag_that_may_be_given_a_word_is_set_by_that_or_by_true(self):
         for value in ('"blocks"', "true"):
             self.write("c.json", f'{{"preview": {value}}}')
-            self.assertIn("▀", self.vantage("thumb", MODEL, "t.png", "-s", "32", "--config", "c.json").out, value)
+            self.assertIn("▀", self.vantage("thumb", "t.obj", "t.png", "-s", "32", "--config", "c.json").out, value)
 
     def test_what_has_no_effect_is_refused_if_typed_and_passed_over_if_set(self):
         self.write("t.obj", TETRAHEDRON)
@@ -128,7 +129,7 @@ class Settings(ProgramTest):
 
     def test_a_batch_hands_settings_to_its_workers(self):
         os.environ["VANTAGE_BATCH_SIZE"] = "40x30"
-        self.vantage("batch", MODEL, "-o", "out", "--write", "best", "--jobs", "1", "-q")
+        self.vantage("batch", "t.obj", "-o", "out", "--write", "best", "--jobs", "1", "--contraction", "exact", "-q")
         picture = next((self.dir / "out").rglob("best.png")).read_bytes()
         self.assertEqual(picture[16:24], bytes([0, 0, 0, 40, 0, 0, 0, 30]))
 
