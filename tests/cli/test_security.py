@@ -15,6 +15,7 @@ import time
 import unittest
 import zipfile
 
+from png import png, read_png
 from program import MODELS, PROGRAM, ProgramTest
 from program import contract_quickly as setUpModule
 from shapes import box
@@ -34,6 +35,8 @@ def gltf(uri, image=None):
         scene["textures"] = [{"source": 0}]
         scene["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
         scene["meshes"][0]["primitives"][0]["material"] = 0
+        scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 1
+        scene["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"})
     return json.dumps(scene)
 
 
@@ -210,12 +213,27 @@ class Paths(ProgramTest):
             done = self.read(gltf(uri), 3)
             self.assertEqual(len(done.err.strip().splitlines()), 1, (uri, done.err))
 
+    def drawn_with(self, image):
+        """Whether a picture of the model shows a red one that its file names, and what is said."""
+        self.write("model/m.gltf", gltf("own.bin", image))
+        done = self.vantage("render", "model/m.gltf", "-o", "r.png", "--force", "--direction", "0,0,1", "--size", "32",
+                            "--style", "asset", "--timeout", "60")
+        row = read_png((self.dir / "r.png").read_bytes())[2][20]
+        shown = [row[i:i + 4] for i in range(0, len(row), 4) if row[i + 3] == 255]
+        self.assertGreater(len(shown), 5)
+        return any(red > 2 * green for red, green, _, _ in shown), done.err
+
     def test_pictures_elsewhere_are_left_out(self):
+        for name in ("secret.png", "model/own.png"):
+            self.write(name, png((255, 0, 0, 255)))
+        self.assertEqual(self.drawn_with("own.png"), (True, ""))
         os.symlink("/dev/zero", self.dir / "model/zero.png")
-        for uri in ("../secret.png", "/dev/zero", "zero.png", "http://127.0.0.1:9/a.png"):
-            self.write("model/m.gltf", gltf("own.bin", uri))
-            self.vantage("render", "model/m.gltf", "-o", "r.png", "--direction", "0,0,1", "--size", "32", "--style", "asset",
-                         "--timeout", "60")
+        os.symlink(self.dir / "secret.png", self.dir / "model/link.png")
+        for uri in ("../secret.png", "%2e%2e/secret.png", str(self.dir / "secret.png"), "link.png", "/dev/zero", "zero.png",
+                    "http://127.0.0.1:9/a.png"):
+            red, said = self.drawn_with(uri)
+            self.assertFalse(red, uri)
+            self.assertRegex(said, r"^note: the texture .* was left out: .+\n$", uri)
 
     def test_no_server_is_asked_for_what_a_file_names(self):
         asked = []
@@ -239,7 +257,8 @@ class Paths(ProgramTest):
         self.assertEqual(asked, [])
 
     def test_nothing_in_a_3mf_archive_is_ever_written(self):
-        with zipfile.ZipFile(self.dir / "m.3mf", "w") as archive:
+        (self.dir / "inner").mkdir()
+        with zipfile.ZipFile(self.dir / "inner/m.3mf", "w") as archive:
             archive.writestr("../evil.model", "<model/>")
             archive.writestr("/tmp/vantage-evil.model", "<model/>")
             archive.writestr("3D/3dmodel.model",
@@ -248,7 +267,9 @@ class Paths(ProgramTest):
                              "<triangle v1='0' v2='1' v3='2'/></triangles></mesh></object></resources>"
                              "<build><item objectid='1'/></build></model>")
         before = sorted(self.dir.rglob("*"))
-        self.vantage("info", "m.3mf")
+        done = subprocess.run([PROGRAM, "info", "m.3mf", "--json"], cwd=self.dir / "inner", capture_output=True, timeout=60,
+                              check=True)
+        self.assertEqual(json.loads(done.stdout)["faces"], 1)
         self.assertEqual(sorted(self.dir.rglob("*")), before)
         self.assertFalse(os.path.exists("/tmp/vantage-evil.model"))
 
