@@ -172,13 +172,17 @@ class FileManagers(ProgramTest):
         seconds = words.index("--timeout") + 1
         self.assertLessEqual(float(words[seconds]), 60)
         self.assertRegex(words[words.index("--max-memory") + 1], "^[1-4]GB$")
-        words[seconds] = "0.5"  # not to wait for it
-        with subprocess.Popen([PROGRAM, *words], cwd=self.dir, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        hasty = [*words[:seconds], "0.5", *words[seconds + 1:]]  # not to wait for it
+        with subprocess.Popen([PROGRAM, *hasty], cwd=self.dir, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
             self.assertEqual(process.wait(timeout=60), 1)
+            self.assertIn(b"longer than --timeout", process.stderr.read())
         # Of a model that does not fit, there is a sentence and no file.
         words[words.index("--max-memory") + 1] = "64MB"
-        self.vantage(*[{"-": str(MODELS / "mannequin.ply")}.get(word, word) for word in words], exit_code=None)
-        self.assertFalse((self.dir / "t.png").exists())
+        model = str(MODELS / "mannequin.ply")
+        done = self.vantage(*[model if word == "-" else word for word in words], exit_code=None)
+        self.assertIn(done.returncode, (1, 3), done.err)
+        self.assertRegex(done.err, r"^vantage: [^\n]*memory[^\n]*\n$")
+        self.assertEqual(list(self.dir.iterdir()), [])
 
 
 class Preview(ProgramTest):

@@ -70,13 +70,24 @@ except KeyboardInterrupt:
 """
 
 
+def can_be_interrupted():
+    """Of a process started in the background of a shell, whose children would ignore Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_ctrl_c_is_a_keyboard_interrupt_and_the_package_goes_on():
     here = os.path.dirname(__file__)
-    with subprocess.Popen([sys.executable, "-c", INTERRUPTED, here], stdout=subprocess.PIPE,
-                          text=True) as child:
-        assert child.stdout.readline() == "started\n"
-        child.send_signal(signal.SIGINT)
-        rest, _ = child.communicate(timeout=60)
+    with subprocess.Popen([sys.executable, "-c", INTERRUPTED, here], stdout=subprocess.PIPE, text=True,
+                          preexec_fn=can_be_interrupted) as child:
+        last_resort = threading.Timer(120, child.kill)
+        last_resort.start()
+        try:
+            assert child.stdout.readline() == "started\n"
+            child.send_signal(signal.SIGINT)
+            rest, _ = child.communicate(timeout=60)
+        finally:
+            last_resort.cancel()
+            child.kill()
     assert rest == "interrupted (12, 3)\n"
     assert child.returncode == 0
 
