@@ -266,6 +266,13 @@ class Serve(Batch):
             subprocess.run([PROGRAM, *Batch.words(self, before)], cwd=self.scratch, check=False)
         shutil.copytree(before, out)
 
+    def undisturbed(self):
+        whole, usual, calls = super().undisturbed()
+        pages = {page: content for page, content in whole.items() if page.startswith("page ")}
+        require(pages.pop("page absent", None) == 404 and b"<html" in pages.get("page ", b""), "no server answers")
+        require(len(pages) > 1 and all(isinstance(content, bytes) for content in pages.values()), "files are not served")
+        return whole, usual, calls
+
     def run(self, out, **faults):
         words = [PROGRAM, "serve", str(out), "-q"]
         server = subprocess.Popen(words, cwd=self.scratch, env=self.environment(faults), stdout=subprocess.PIPE,

@@ -31,13 +31,14 @@ class Faults(ProgramTest):
         job = kind(self.dir)
         whole, usual, calls = job.undisturbed()
         self.assertGreater(calls, 10)
-        outcomes = set()
+        outcomes = []
         for number, error in enumerate(errors):
             # Other calls for each error: together they cover more.
             for call in faults.sampled(calls, MOST * len(errors))[number::len(errors)]:
-                outcomes.add(job.disturbed(call, error, whole, usual))
-        self.assertNotEqual(outcomes, {"not reached"})
-        outcomes.add(job.disturbed(calls // 2, "ENOSPC", whole, usual, stays=True))
+                outcomes.append(job.disturbed(call, error, whole, usual))
+        # Which process makes how many calls hangs on chance: not every last one is made again.
+        self.assertLessEqual(outcomes.count("not reached"), len(outcomes) / 4, outcomes)
+        self.assertNotEqual(job.disturbed(calls // 2, "ENOSPC", whole, usual, stays=True), "not reached")
 
     def test_views(self):
         self.check(faults.View)
@@ -50,7 +51,7 @@ class Faults(ProgramTest):
         job = faults.ViewOver(self.dir)
         whole, usual, calls = job.undisturbed()
         for call in range(calls * 6 // 10, calls * 8 // 10, 2):
-            job.disturbed(call, "EIO", whole, usual)
+            self.assertNotEqual(job.disturbed(call, "EIO", whole, usual), "not reached")
 
     def test_batches(self):
         self.check(faults.BatchParent)
