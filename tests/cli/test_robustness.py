@@ -1,20 +1,25 @@
 """Odd but legal surfaces through the whole program; real broken files where VANTAGE_DATA is set."""
 
 import base64
+import csv
 import json
+import math
 import os
 import pathlib
 import resource
+import shutil
 import struct
 import subprocess
 import sys
 import unittest
 
+from png import read_png
 from program import PROGRAM, ProgramTest
 
 QUICK = ("--no-images", "--search", "rapid")
 MEMORY = 4 << 30  # bytes
 SECONDS = 60
+LEAST_SHARE_OF_VIEWS = 0.55  # 0.60 of the sample
 LARGEST_OF_A_SAMPLE = 200_000  # bytes; what is wrong with a file is seldom its size
 
 
@@ -55,15 +60,30 @@ class Extremes(ProgramTest):
         self.assertFalse((self.dir / "out").exists())
         return done.err
 
+    def measures_and_figures(self, size):
+        """Scores of each measure, and the bytes of each figure, of a tetrahedron."""
+        self.write("limit.obj", written("obj", [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]))
+        self.vantage("compare", "limit.obj", "-o", "compared", "--force", "--no-images")
+        with open(self.dir / "compared/compare.csv", encoding="utf-8") as table:
+            scores = {row["method"]: [float(row[which]) for which in ("score", "worst_score")] for row in csv.DictReader(table)}
+        self.vantage("figures", "limit.obj", "-o", "figures", "--force", "--size", "48x36")
+        return scores, {path.name: path.read_bytes() for path in (self.dir / "figures").glob("*.png")}
+
     def test_measures_and_figures_hold_at_the_limits(self):
-        for size in (1e59, 1e-59):
-            corners = [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]
-            self.write("limit.obj", written("obj", corners))
+        scores, figures = self.measures_and_figures(1.0)
+        self.assertTrue(all(math.isfinite(value) for values in scores.values() for value in values), scores)
+        self.assertGreater(len(figures), 8)
+        for name, figure in figures.items():
+            rows = read_png(figure)[2]
+            self.assertGreater(len({row[i:i + 4] for row in rows for i in range(0, len(row), 4)}), 9, name)
+        for size in (2.0**196, 2.0**-196):  # 1e59 and 1e-59; by powers of two no digit changes
             with self.subTest(size=size):
-                self.vantage("compare", "limit.obj", "-o", "compared", "--force", "--no-images")
-                table = (self.dir / "compared/compare.csv").read_text(encoding="utf-8").lower()
-                self.assertNotRegex(table, r"\b(nan|inf)\b")
-                self.vantage("figures", "limit.obj", "-o", "figures", "--force", "--size", "48x36")
+                there, drawn = self.measures_and_figures(size)
+                self.assertEqual([name for name, figure in figures.items() if drawn.get(name) != figure], [])
+                self.assertEqual(there.keys(), scores.keys())
+                for method, values in scores.items():
+                    for value, expected in zip(there[method], values):
+                        self.assertAlmostEqual(value, expected, delta=1e-9 * abs(expected), msg=method)
         for command in ("compare", "figures"):
             for size in (1e80, 1e-300):
                 self.write("beyond.obj", written("obj", [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]))
@@ -176,17 +196,20 @@ class BrokenFiles(ProgramTest):
         files = sorted(p for p in (pathlib.Path(data) / "nasty").rglob("*")
                        if p.is_file() and p.suffix.lower() in models)
         self.assertGreater(len(files), 200)
-        wrong = []
+        wrong, viewed, tried = [], 0, 0
         stride = int(os.environ.get("VANTAGE_NASTY_STRIDE", "6"))
         for file in files[::stride]:
             if stride > 1 and file.stat().st_size > LARGEST_OF_A_SAMPLE:
                 continue
-            problem = self.problem_with(file)
+            is_viewed, problem = self.end_of(file)
+            tried, viewed = tried + 1, viewed + is_viewed
             if problem:
                 wrong.append(f"{file.relative_to(data)}: {problem}")
         self.assertEqual(wrong, [])
+        self.assertGreater(viewed, LEAST_SHARE_OF_VIEWS * tried)
 
-    def problem_with(self, file):
+    def end_of(self, file):
+        """Whether it has a view, and what is wrong with how the run ended, or None."""
         def limit():
             if "VANTAGE_SANITIZED" not in os.environ:  # sanitizers set far more addresses aside
                 resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
@@ -195,12 +218,24 @@ class BrokenFiles(ProgramTest):
             done = subprocess.run([PROGRAM, "view", str(file), "-o", "out", *QUICK], cwd=self.dir,
                                   capture_output=True, timeout=SECONDS, preexec_fn=limit, check=False)
         except subprocess.TimeoutExpired:
-            return f"took more than {SECONDS} s"
-        if done.returncode not in (0, 1, 3):
-            return f"exit code {done.returncode}: {done.stderr[-300:]!r}"
-        if done.returncode != 0 and len(done.stderr.decode(errors="replace").strip().splitlines()) != 1:
-            return f"not one sentence: {done.stderr[-300:]!r}"
-        return None
+            return False, f"took more than {SECONDS} s"
+        if done.returncode == 0:
+            return True, self.problem_with_view()
+        if done.returncode not in (1, 3):
+            return False, f"exit code {done.returncode}: {done.stderr[-300:]!r}"
+        if len(done.stderr.decode(errors="replace").strip().splitlines()) != 1:
+            return False, f"not one sentence: {done.stderr[-300:]!r}"
+        return False, None
+
+    def problem_with_view(self):
+        wrong = []
+        report = json.loads((self.dir / "out/view.json").read_text(), parse_constant=wrong.append)
+        shutil.rmtree(self.dir / "out")
+        for which in ("best", "worst"):
+            view = report[which]
+            numbers = (view["score"], *view["direction"], *view["eye"])
+            wrong += [x for x in numbers if not isinstance(x, (int, float)) or not math.isfinite(x)]
+        return f"{wrong} in view.json" if wrong else None
 
 
 if __name__ == "__main__":
