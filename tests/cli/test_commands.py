@@ -191,15 +191,29 @@ class Score(ProgramTest):
         self.assertEqual(self.vantage("score", MODELS / "fan.ply", "--sphere", 0, "-o", "s.csv").out, "")
         self.assertEqual((self.dir / "s.csv").read_text(), out)
 
-    def test_weight_area_scores_less_than_the_largest_significance(self):
-        # A mean over the surface, of which a part is seen, cannot exceed the map's largest value.
-        self.vantage("map", MODELS / "fan.ply", "--weight", "area", "-o", "map.ply")
-        _, vertices, _ = read_ply(self.dir / "map.ply")
-        values = [v["quality"] for v in vertices]
-        out = self.vantage("score", MODELS / "fan.ply", "--weight", "area", "--sphere", 0).out
-        for row in out.splitlines()[1:]:
-            self.assertGreater(float(row.split(",")[-1]), 0.0)
-            self.assertLess(float(row.split(",")[-1]), max(values))
+    def test_weight_area_integrates_the_map_over_the_surface_seen(self):
+        # Of a convex surface an eye sees the faces whose planes it is before.
+        corners = [(0, 0, 0), (3, 0, 0), (0, 2, 0), (0, 0, 1)]
+        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        self.write("m.off", "\n".join(["OFF", "4 4 0", *(f"{x} {y} {z}" for x, y, z in corners),
+                                       *(f"3 {a} {b} {c}" for a, b, c in faces), ""]))
+        self.vantage("map", "m.off", "--weight", "area", "-o", "map.ply")
+        values = [vertex["quality"] for vertex in read_ply(self.dir / "map.ply")[1]]
+        self.assertEqual(len(set(values)), 4)
+        planes = []  # a corner, the normal as long as the area, and the integral of the map
+        for a, b, c in faces:
+            (x, y, z), (u, v, w) = ([q - p for p, q in zip(corners[a], corners[end])] for end in (b, c))
+            normal = [(y * w - z * v) / 2, (z * u - x * w) / 2, (x * v - y * u) / 2]
+            planes.append((corners[a], normal, math.hypot(*normal) * (values[a] + values[b] + values[c]) / 3))
+        area = sum(math.hypot(*normal) for _, normal, _ in planes)
+        eyes = [(50, 40, 60), (-30, 1, 0.2), (-20, -30, 1), (1, -40, -50), (-20, -30, -40), (40, -20, 30)]
+        seen = [[sum(n * (e - p) for n, e, p in zip(normal, eye, point)) > 0 for point, normal, _ in planes] for eye in eyes]
+        self.assertEqual({sum(of_eye) for of_eye in seen}, {1, 2, 3})
+        self.write("eyes.csv", "".join(f"{x},{y},{z}\n" for x, y, z in eyes))
+        out = self.vantage("score", "m.off", "--weight", "area", "--eyes", "eyes.csv").out
+        for row, of_eye in zip(out.splitlines()[1:], seen, strict=True):
+            expected = sum(integral for (_, _, integral), is_seen in zip(planes, of_eye) if is_seen) / area
+            self.assertAlmostEqual(float(row.split(",")[-1]) / expected, 1, places=6)  # values of maps are floats
 
     def test_an_eye_at_the_scoring_distance_scores_as_its_direction(self):
         self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--search", "rapid")
