@@ -165,13 +165,17 @@ class Killed(ProgramTest):
         calls = self.assert_never_mixed(("view", "horse.off", *FAST, "--views", "2", "--weight", "area"),
                                         ("view", "cup.off", *FAST, "--no-report"), "v", "view.json", ("timings.json",))
         # What a killed run left is known as ours, and goes with the next run.
-        for call in range(calls // 3, calls, max(1, calls // 6)):
+        left = 0
+        for call in range(calls // 6, calls, max(1, calls // 6)):
             shutil.rmtree(self.dir / "v", ignore_errors=True)
-            self.killed(["view", "horse.off", *FAST, "-o", "v"], call)
+            if not self.killed(["view", "horse.off", *FAST, "-o", "v"], call):
+                break
+            left += not (self.dir / "v/view.json").exists() and any((self.dir / "v").iterdir())
             self.vantage("view", "cup.off", *FAST, "--no-images", "-o", "v")
             self.assertFalse([p.name for p in (self.dir / "v").iterdir() if p.name.startswith(".")])
             self.assertEqual(json.loads((self.dir / "v/view.json").read_text())["model"]["name"], "cup")
             self.assertFalse((self.dir / "v/best.png").exists())
+        self.assertGreater(left, 0, "no run was killed that had begun to write")
 
     def test_comparisons(self):
         method = ("--method", "silhouette-length")
