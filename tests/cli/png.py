@@ -26,6 +26,15 @@ def read_png(data):
     return width, height, rows
 
 
+def borders(picture, above=0):
+    """Columns left and right and rows above and below what a picture (of read_png) shows."""
+    width, height, rows = picture
+    alphas = [row[3::4] for row in rows]
+    ys = [y for y, row in enumerate(alphas) if max(row) > above]
+    xs = [x for x, column in enumerate(zip(*alphas)) if max(column) > above]
+    return xs[0], width - 1 - xs[-1], ys[0], height - 1 - ys[-1]
+
+
 def png(rgba, width=2, height=2):
     """A PNG of one colour."""
     def chunk(kind, data):

@@ -9,6 +9,7 @@ import unittest
 
 from program import MODELS, ProgramTest, read_ply
 from program import contract_quickly as setUpModule
+from shapes import TETRAHEDRON, off
 
 REFINED = ("--contraction", "auto")  # for what a refined surface might have otherwise
 
@@ -101,9 +102,7 @@ class Skeleton(ProgramTest):
             faces += [(along * around, j, k), (along * around + 1, (along - 1) * around + k, (along - 1) * around + j)]
             for i in range(0, (along - 1) * around, around):
                 faces += [(i + j, i + around + j, i + around + k), (i + j, i + around + k, i + k)]
-        (self.dir / "egg.off").write_text(
-            f"OFF\n{len(points)} {len(faces)} 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in points)
-            + "".join(f"3 {a} {b} {c}\n" for a, b, c in faces), encoding="utf-8")
+        self.write("egg.off", off(points, faces))
         self.vantage("skeleton", "egg.off", "-o", "s.json", "--levels", "levels", "--meso", "m.ply",
                      "--contraction-limit", "7", "--shrinkage-tolerance", "0.03")
 
@@ -193,10 +192,8 @@ class Score(ProgramTest):
 
     def test_weight_area_integrates_the_map_over_the_surface_seen(self):
         # Of a convex surface an eye sees the faces whose planes it is before.
-        corners = [(0, 0, 0), (3, 0, 0), (0, 2, 0), (0, 0, 1)]
-        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-        self.write("m.off", "\n".join(["OFF", "4 4 0", *(f"{x} {y} {z}" for x, y, z in corners),
-                                       *(f"3 {a} {b} {c}" for a, b, c in faces), ""]))
+        corners, faces = [(0, 0, 0), (3, 0, 0), (0, 2, 0), (0, 0, 1)], TETRAHEDRON[1]
+        self.write("m.off", off(corners, faces))
         self.vantage("map", "m.off", "--weight", "area", "-o", "map.ply")
         values = [vertex["quality"] for vertex in read_ply(self.dir / "map.ply")[1]]
         self.assertEqual(len(set(values)), 4)

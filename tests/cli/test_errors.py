@@ -11,10 +11,9 @@ import unittest
 
 from program import MODELS, PROGRAM, ProgramTest
 from program import contract_quickly as setUpModule
-from shapes import box
+from shapes import box, boxes
 
-CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
-        "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
+CUBE = boxes((0, 0, 0, 1, 1, 1))
 
 
 class Usage(ProgramTest):
@@ -100,10 +99,10 @@ class Input(ProgramTest):
 
     def test_place_of_the_mistake_is_named(self):
         self.write("bad.off", CUBE.replace("1 1 1", "1 one 1"))
-        self.check_unreadable("bad.off", "line 9")
+        self.check_unreadable("bad.off", "line 10")
 
     def test_index_past_the_last_vertex(self):
-        self.write("bad.off", CUBE.replace("4 3 0 4 7", "4 3 0 4 8"))
+        self.write("bad.off", CUBE.replace("4 1 5 7 3", "4 1 5 7 8"))
         self.check_unreadable("bad.off", "line 16")
 
     def test_truncated_file(self):

@@ -5,7 +5,7 @@ import pathlib
 import sys
 import unittest
 
-from png import read_png
+from png import borders, read_png
 from program import MODELS, ProgramTest, read_ply
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
@@ -47,17 +47,9 @@ class Looks(ProgramTest):
                      "--direction", "1,0.5,1", *flags)
         return None if "--depth" in flags else read_png((self.dir / "p.png").read_bytes())
 
-    def box_of(self, *flags):
-        """Distances of what is drawn from the four borders, px."""
-        width, height, rows = self.picture(*flags, size="200x150")
-        alphas = [row[3::4] for row in rows]
-        ys = [y for y, a in enumerate(alphas) if max(a) > 8]
-        xs = [x for x in range(width) if max(a[x] for a in alphas) > 8]
-        return xs[0], width - 1 - xs[-1], ys[0], height - 1 - ys[-1]
-
     def test_the_margin_is_kept_to_a_pixel_on_two_opposite_sides_and_by_all(self):
         for per_cent in (0, 4, 20):
-            left, right, top, bottom = self.box_of("--margin", per_cent)
+            left, right, top, bottom = borders(self.picture("--margin", per_cent, size="200x150"), above=8)
             margin = per_cent / 100 * 150
             self.assertGreaterEqual(min(left, right, top, bottom), margin - 1.5)
             across = abs(left - margin) <= 1 and abs(right - margin) <= 1

@@ -15,6 +15,7 @@ import unittest
 
 from png import read_png
 from program import PROGRAM, ProgramTest
+from shapes import TETRAHEDRON, obj, off
 
 QUICK = ("--no-images", "--search", "rapid")
 MEMORY = 4 << 30  # bytes
@@ -23,24 +24,12 @@ LEAST_SHARE_OF_VIEWS = 0.55  # 0.60 of the sample
 LARGEST_OF_A_SAMPLE = 200_000  # bytes; what is wrong with a file is seldom its size
 
 
-def off(vertices, faces):
-    return "\n".join(["OFF", f"{len(vertices)} {len(faces)} 0",
-                      *(" ".join(map(str, v)) for v in vertices),
-                      *(" ".join(map(str, (len(f), *f))) for f in faces), ""])
-
-
-TETRAHEDRON = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
-               [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
-
-
 def written(form, vertices):
     """The tetrahedron with other coordinates, in a text format."""
     faces = TETRAHEDRON[1]
+    if form in ("off", "obj"):
+        return {"off": off, "obj": obj}[form](vertices, faces)
     rows = [" ".join(map(str, v)) for v in vertices]
-    if form == "off":
-        return off(vertices, faces)
-    if form == "obj":
-        return "".join(f"v {row}\n" for row in rows) + "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in faces)
     if form == "ply":
         properties = "".join(f"property double {axis}\n" for axis in "xyz")
         return (f"ply\nformat ascii 1.0\nelement vertex 4\n{properties}element face 4\n"

@@ -7,10 +7,10 @@ import shutil
 import subprocess
 import unittest
 
-from program import PROGRAM, ProgramTest
+from program import ProgramTest
+from shapes import TETRAHEDRON, obj
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # drawn as quickly as anything
-TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 
 
 class Settings(ProgramTest):
@@ -113,7 +113,7 @@ class Settings(ProgramTest):
             self.assertIn("▀", self.vantage("thumb", "t.obj", "t.png", "-s", "32", "--config", "c.json").out, value)
 
     def test_what_has_no_effect_is_refused_if_typed_and_passed_over_if_set(self):
-        self.write("t.obj", TETRAHEDRON)
+        self.write("t.obj", obj(*TETRAHEDRON))
         self.write("c.json", '{"base": "cube", "subdivisions": 2, "starts": 16, "epsilon": 1, "min-separation": 20, '
                              '"select": "vazquez", "information": 0.1, "tour-path": "explore", "fps": 5, "partition": "x"}')
         self.vantage("view", "t.obj", "--starts", "16", exit_code=2)

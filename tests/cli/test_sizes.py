@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from png import read_png
+from png import borders, read_png
 from program import MODELS, ProgramTest
 from program import contract_quickly as setUpModule
 from shapes import angle_bar, box
@@ -15,13 +15,6 @@ class Sizes(ProgramTest):
 
     def size_of(self, name):
         return read_png((self.dir / name).read_bytes())[:2]
-
-    def borders(self, name):
-        """Empty pixels left, right, above and below what a picture shows."""
-        width, height, rows = read_png((self.dir / name).read_bytes())
-        ys = [y for y, row in enumerate(rows) if any(row[3::4])]
-        xs = [x for x in range(width) if any(row[4 * x + 3] for row in rows)]
-        return xs[0], width - 1 - xs[-1], ys[0], height - 1 - ys[-1]
 
     def test_a_view_fills_its_pictures_on_all_four_sides_unless_a_size_is_given(self):
         self.vantage("view", MODELS / "fan.ply", "-o", "v", *FAST)
@@ -36,7 +29,7 @@ class Sizes(ProgramTest):
             margin = 0.04 * min(width, height)
             if 0.51 < width / height < 1.96:  # not at a limit
                 inside_limits.append(which)
-                for border in self.borders(f"v/{which}.png"):
+                for border in borders(read_png((self.dir / f"v/{which}.png").read_bytes())):
                     self.assertLess(abs(border - margin), 2.5, which)
         self.assertTrue(inside_limits, "no picture had borders on all four sides to check")
         self.assertNotEqual(view["best"]["size"], view["worst"]["size"])

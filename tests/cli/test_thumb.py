@@ -7,19 +7,11 @@ import re
 import subprocess
 import unittest
 
-from png import read_png
+from png import borders, read_png
 from program import MODELS, PROGRAM, ProgramTest
 from shapes import angle_bar, box
 
 FAN = MODELS / "fan.ply"
-
-
-def alpha_box(rows):
-    """First and last column and row that are not quite transparent."""
-    alphas = [row[3::4] for row in rows]
-    ys = [y for y, a in enumerate(alphas) if max(a) > 8]
-    xs = [x for x in range(len(alphas[0])) if max(a[x] for a in alphas) > 8]
-    return xs[0], xs[-1], ys[0], ys[-1]
 
 
 class Thumb(ProgramTest):
@@ -38,13 +30,12 @@ class Thumb(ProgramTest):
 
     def test_the_model_touches_the_margin_on_two_opposite_sides_and_is_centred(self):
         self.vantage("thumb", FAN, "fan.png", "-s", 200)
-        left, right, top, bottom = alpha_box(read_png((self.dir / "fan.png").read_bytes())[2])
+        left, right, top, bottom = borders(read_png((self.dir / "fan.png").read_bytes()), above=8)
         margin = 0.04 * 200
-        touches = [abs(left - margin) <= 1 and abs(199 - right - margin) <= 1,
-                   abs(top - margin) <= 1 and abs(199 - bottom - margin) <= 1]
+        touches = [all(abs(border - margin) <= 1 for border in sides) for sides in ((left, right), (top, bottom))]
         self.assertIn(True, touches, (left, right, top, bottom))
-        self.assertLessEqual(abs(left - (199 - right)), 2)
-        self.assertLessEqual(abs(top - (199 - bottom)), 2)
+        self.assertLessEqual(abs(left - right), 2)
+        self.assertLessEqual(abs(top - bottom), 2)
 
     def test_the_same_bytes_for_any_number_of_threads(self):
         for threads in (1, 3):

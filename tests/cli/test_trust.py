@@ -7,6 +7,7 @@ import unittest
 
 from png import read_png
 from program import MODELS, ProgramTest
+from shapes import boxes
 
 FAST = ("--search", "rapid", "--size", "64")
 DOUBTED = "plates.off"
@@ -15,19 +16,6 @@ DOUBTED = "plates.off"
 def needle():
     """A tetrahedron a ten-millionth as thick as it is long."""
     return "OFF\n4 4 0\n0 0 0\n1 0 0\n0.5 1e-7 0\n0.5 0 1e-7\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n"
-
-
-def boxes(*sizes):
-    """A file of boxes: of each the lowest corner and the sides."""
-    corners, faces = [], []
-    for x, y, z, a, b, c in sizes:
-        first = len(corners)
-        corners += [(x + i * a, y + j * b, z + k * c) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
-        quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-        faces += [[first + i for i in quad] for quad in quads]
-    lines = [f"OFF\n{len(corners)} {len(faces)} 0", *(f"{x} {y} {z}" for x, y, z in corners),
-             *("4 " + " ".join(map(str, face)) for face in faces)]
-    return "\n".join(lines) + "\n"
 
 
 def plates():

@@ -13,6 +13,7 @@ import unittest
 
 from program import MODELS, PROGRAM, ProgramTest, read_ply
 from program import contract_quickly as setUpModule
+from shapes import ball_with_pole
 
 REFINED = ("--contraction", "auto")  # for what a refined surface might have otherwise
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -188,14 +189,9 @@ class View(ProgramTest):
         self.assertGreater(abs(found["best"]["direction"][2]), abs(found["worst"]["direction"][2]))
 
     def test_the_page_shows_a_cloud_as_its_pictures_do(self):
-        ball = []
-        for i in range(200):
-            y, angle = 1 - (i + 0.5) / 100, 2.4 * i
-            ball.append((math.sqrt(1 - y * y) * math.cos(angle), y, math.sqrt(1 - y * y) * math.sin(angle)))
-        pole = [(0, 1 + 0.1 * k, 0) for k in range(1, 31)]  # which no triangle joins
         properties = "".join(f"property {kind}\n" for kind in ("float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"))
         self.write("pole.ply", f"ply\nformat ascii 1.0\nelement vertex 230\n{properties}end_header\n"
-                   + "".join(f"{x} {y} {z} 220 20 10\n" for x, y, z in ball + pole))
+                   + "".join(f"{x} {y} {z} 220 20 10\n" for x, y, z in ball_with_pole()))
         self.vantage("view", "pole.ply", "-o", "out", "--size", "32", "--search", "rapid")
         page = (self.dir / "out" / "report.html").read_text()
         data = json.loads(page.split('id="data">')[1].split("</script>")[0])

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from conftest import torus
+from shapes import ball_with_pole
 import vantage
 
 V, F = torus(12, 8)
@@ -231,11 +232,7 @@ def test_colours_of_vertices_are_drawn():
 
 
 def test_colours_of_a_cloud_are_drawn_on_points_that_no_triangle_joins():
-    i = np.arange(200)
-    y = 1 - (i + 0.5) / 100
-    ball = np.c_[np.sqrt(1 - y * y) * np.cos(2.4 * i), y, np.sqrt(1 - y * y) * np.sin(2.4 * i)]
-    pole = np.array([[0.0, 1 + 0.1 * k, 0.0] for k in range(1, 31)])
-    points = np.r_[ball, pole]
+    points = np.array(ball_with_pole())
     red = np.tile(np.array([255, 0, 0], np.uint8), (len(points), 1))
     camera = vantage.Camera("perspective", np.array([0, 2.0, 12]), np.array([0, 2.0, 0]), np.array([0, 1.0, 0]), 30.0)
     shown = [vantage.render(points, camera=camera, colours=colours, size=200, quality="draft")[..., 3]
