@@ -136,7 +136,8 @@ class Measures(ProgramTest):
             self.assertEqual(chosen(best, method["best"]["score"]), method["best"]["score"], method["method"])
 
     def test_compare_prints_seconds_only_where_bytes_may_differ(self):
-        printed = json.loads(self.vantage("compare", FAN, "-o", "out", "--method", "plemenos,vmi",
+        self.write("bar.off", angle_bar())
+        printed = json.loads(self.vantage("compare", "bar.off", "-o", "out", "--method", "plemenos,vmi",
                                           "--no-images", "--json").out)
         self.assertTrue(all(m["seconds"] >= 0 for m in printed["methods"]))
         self.assertNotIn("seconds", (self.dir / "out" / "compare.json").read_text())
@@ -217,11 +218,12 @@ class Measures(ProgramTest):
             self.assertIn("line.off: ", self.vantage(*command, "--method", "vmi", exit_code=3).err)
 
     def test_compare_replaces_its_own_folder_but_no_other(self):
-        self.vantage("compare", FAN, "-o", "out", "--method", "plemenos", "--no-images")
-        self.vantage("compare", FAN, "-o", "out", "--method", "plemenos", "--no-images")
+        self.write("bar.off", angle_bar())
+        self.vantage("compare", "bar.off", "-o", "out", "--method", "plemenos", "--no-images")
+        self.vantage("compare", "bar.off", "-o", "out", "--method", "plemenos", "--no-images")
         (self.dir / "mine").mkdir()
         self.write("mine/notes.txt", "mine")
-        self.vantage("compare", FAN, "-o", "mine", "--method", "plemenos", exit_code=1)
+        self.vantage("compare", "bar.off", "-o", "mine", "--method", "plemenos", exit_code=1)
         self.assertEqual([p.name for p in (self.dir / "mine").iterdir()], ["notes.txt"])
 
     def test_eval_scores_a_camera_that_people_chose_with_no_error(self):

@@ -7,6 +7,7 @@ import unittest
 
 from png import borders, read_png
 from program import MODELS, ProgramTest, read_ply
+from shapes import angle_bar, box
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 from update_goldens import GOLDENS, picture_arguments  # noqa: E402
@@ -135,10 +136,11 @@ class Figures(ProgramTest):
         self.assertEqual((len(rows), rows[1].split(",")[:2]), (2, ['"fan"', "820"]))
 
     def test_several_models_get_a_folder_each_and_one_table(self):
-        self.vantage("figures", MODELS / "fan.ply", MODELS / "cat_lowpoly.ply", "-o", "f", "--size", "40x30", "-q",
-                     "--search", "rapid", "--views", "2")
-        self.assertTrue((self.dir / "f/fan/figure-4-search.svg").exists())
-        self.assertTrue((self.dir / "f/cat_lowpoly/figure-6-spheres.png").exists())
+        self.write("bar.off", angle_bar())
+        self.write("box.off", box(1))
+        self.vantage("figures", "bar.off", "box.off", "-o", "f", "--size", "40x30", "-q", "--search", "rapid", "--views", "2")
+        self.assertTrue((self.dir / "f/bar/figure-4-search.svg").exists())
+        self.assertTrue((self.dir / "f/box/figure-6-spheres.png").exists())
         self.assertEqual(len((self.dir / "f/table-1-times.csv").read_text().splitlines()), 3)
 
     def test_points_have_figures_too_without_saliency(self):

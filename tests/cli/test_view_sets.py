@@ -104,13 +104,14 @@ class ViewSets(ProgramTest):
         self.assertGreaterEqual(report["view_set"]["most_coverage"], covered[-1] - 1e-12)
 
     def test_fewest_views_by_entropy_reach_the_coverage_asked_for(self):
-        self.vantage("view", FAN, "-o", "out", "--select", "vazquez", "--coverage", 0.9, "--no-images")
+        self.vantage("view", FAN, "-o", "out", "--select", "vazquez", "--coverage", 0.9, "--no-images", "--search", "rapid")
         report = self.report()
         covered = [view["coverage"] for view in report["views"]]
         self.assertEqual(report["view_set"]["stop"], "coverage")
         self.assertGreaterEqual(covered[-1], 0.9)
         self.assertTrue(all(c < 0.9 for c in covered[:-1]))
-        self.vantage("view", FAN, "-o", "same", "--select", "vazquez", "--views", len(covered), "--no-images")
+        self.vantage("view", FAN, "-o", "same", "--select", "vazquez", "--views", len(covered), "--no-images",
+                     "--search", "rapid")
         self.assertEqual([view["direction"] for view in self.report("same")["views"]],
                          [view["direction"] for view in report["views"]])
 
@@ -120,7 +121,7 @@ class ViewSets(ProgramTest):
 
     def test_every_selection_gives_the_number_asked_for(self):
         for name in ("kssm", "vazquez", "feixas"):
-            self.vantage("view", FAN, "-o", name, "--views", 3, "--select", name, "--no-images")
+            self.vantage("view", FAN, "-o", name, "--views", 3, "--select", name, "--no-images", "--search", "rapid")
             report = self.report(name)
             self.assertEqual(report["view_set"]["selection"], name)
             self.assertEqual(len(report["views"]), 3)
