@@ -20,7 +20,7 @@ from shapes import TETRAHEDRON, obj, off
 QUICK = ("--no-images", "--search", "rapid")
 MEMORY = 4 << 30  # bytes
 SECONDS = 60
-LEAST_SHARE_OF_VIEWS = 0.55  # 0.60 of the sample
+LEAST_SHARE_OF_VIEWS = 0.53  # it is 0.60 of the sample, and 0.56 of every second file
 LARGEST_OF_A_SAMPLE = 200_000  # bytes; what is wrong with a file is seldom its size
 
 
