@@ -4,6 +4,7 @@
 #include "vantage/pipeline/find_views.h"
 
 #include "support/model_of.h"
+#include "support/same_picture.h"
 #include "support/shapes.h"
 
 namespace vantage::test {
@@ -19,7 +20,7 @@ TEST(FindPictureView, OfALargeSurfaceLooksAtADecimatedCopyAndFramesTheWhole) {
   const ReportedView framed =
       describe_view(prepared, VertexVisibility(prepared.surface, prepared.sides),
                     scoring_camera(prepared, {}), found.view.direction, found.choice.frame.up, {});
-  EXPECT_EQ(found.view.picture.fov_y_deg, framed.picture.fov_y_deg);
+  expect_same_picture(found.view, framed);
 }
 
 }  // namespace

@@ -17,14 +17,16 @@
 #include "pipeline/preference.h"
 #include "pipeline/view_preparation.h"
 #include "support/model_of.h"
+#include "support/same_picture.h"
 #include "support/shapes.h"
+#include "support/unrefined.h"
 #include "support/worst.h"
 
 namespace vantage::test {
 namespace {
 
 ViewOptions quick_search() {
-  ViewOptions options;
+  ViewOptions options = unrefined();
   options.search.strategy = SearchStrategy::Exhaustive;
   options.search.subdivisions = 2;
   options.objective = Objective::Significance;
@@ -33,7 +35,7 @@ ViewOptions quick_search() {
 
 /// A Y of tubes with what is found of it by default. Found once a process.
 struct FoundY {
-  ViewOptions options{};
+  ViewOptions options = unrefined();
   Model model = model_of(y_of_tubes(0.2, 24));
   ShapeAnalysis shape = analyse_shape(model, options);
   FrameChoice frame = choose_frame(model, shape, options);
@@ -440,8 +442,7 @@ TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
 TEST(AnalyseShape, MakesCoarseCopiesForSearchesThatEstimateAlone) {
   EXPECT_NE(FoundY::once().shape.views->copies, nullptr);
   EXPECT_EQ(analysed_box().views->copies, nullptr);
-  ViewOptions by_area{.method = "projected-area"};
-  by_area.contraction.method = ContractionMethod::Exact;  // the sooner done
+  const ViewOptions by_area = unrefined({.method = "projected-area"});
   EXPECT_EQ(analyse_shape(model_of(box(1.0, 2.0, 3.0, 4)), by_area).views->copies, nullptr);
 }
 
@@ -453,7 +454,7 @@ TEST(FindView, IsTheOneThatBothAreFoundWith) {
     EXPECT_EQ(found.direction, expected.direction);
     EXPECT_EQ(found.score, expected.score);
     EXPECT_EQ(found.objective, expected.objective);
-    EXPECT_EQ(found.picture.fov_y_deg, expected.picture.fov_y_deg);
+    expect_same_picture(found, expected);
   }
 }
 
@@ -481,7 +482,7 @@ TEST(FindPictureView, LooksAtTheSideThatWasScanned) {
       return !(normal.dot(side) > 0.15 * normal.norm());
     });
     const Model model = model_of(half);
-    const PictureView found = find_picture_view(model, prepare_surface(model), ViewOptions{});
+    const PictureView found = find_picture_view(model, prepare_surface(model), unrefined());
     EXPECT_GT(found.view.direction.dot(side), 0.3) << side.transpose();
   }
 }

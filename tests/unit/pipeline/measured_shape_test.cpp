@@ -14,6 +14,7 @@
 #include "pipeline/view_preparation.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
+#include "support/unrefined.h"
 
 namespace vantage::test {
 namespace {
@@ -33,7 +34,7 @@ Measure moved_area(Better better, double by) {
 MeasuredViews extremes(const Measure& measure, int level = 3) {
   const Model model = model_of(box(1.0, 2.0, 3.0, 2));
   const std::vector<Measure> measures{measure};
-  const ShapeAnalysis shape = analyse_for(model, {}, measures);
+  const ShapeAnalysis shape = analyse_for(model, unrefined(), measures);
   ViewMeasurer measurer(measure_subject(shape, {}), measures, level);
   return extreme_views(measurer, 0);
 }
@@ -52,8 +53,7 @@ TEST(ExtremeViews, AreTheSameWhereverTheMeasureHasItsZero) {
 TEST(FindViews, SayWhatShareOfTheBestScoreTheViewHasWhereLessIsBetterToo) {
   const Model model = model_of(y_of_tubes(0.25, 10));
   for (const char* const name : {"projected-area", "instability"}) {
-    ViewOptions options;
-    options.method = name;
+    const ViewOptions options = unrefined({.method = name});
     const ShapeAnalysis shape = analyse_shape(model, options);
     const ViewReport report = find_views(shape, UpAxis::Y, options);
     const double own = report.best.score;
@@ -69,7 +69,7 @@ TEST(FindViews, SayWhatShareOfTheBestScoreTheViewHasWhereLessIsBetterToo) {
 TEST(ExtremeViews, AreOfAMeasureThatIsThere) {
   const Model model = model_of(box(1.0, 2.0, 3.0, 1));
   const std::vector<Measure> measures{moved_area(Better::More, 0.0)};
-  const ShapeAnalysis shape = analyse_for(model, {}, measures);
+  const ShapeAnalysis shape = analyse_for(model, unrefined(), measures);
   ViewMeasurer measurer(measure_subject(shape, {}), measures, 0);
   EXPECT_THROW(extreme_views(measurer, 5), InvalidInput);
   EXPECT_THROW(best_view(measurer, 1), InvalidInput);
@@ -126,8 +126,7 @@ TEST(RequireMemory, CountsTheViewsThatMeasuresOfASetCompare) {
 
 TEST(AnalyseShape, KeepsTheTermsOfASetForTheMapAndTheSearch) {
   const Model model = model_of(box(1.0, 2.0, 3.0, 2));
-  ViewOptions options{.method = "pmi-saliency"};
-  options.contraction.method = ContractionMethod::Exact;  // the sooner done
+  ViewOptions options = unrefined({.method = "pmi-saliency"});
   const ShapeAnalysis shape = analyse_shape(model, options);
   const MeasureSubject subject = measure_subject(shape, options);
   ASSERT_NE(subject.terms_of_set, nullptr);
@@ -141,7 +140,7 @@ TEST(AnalyseShape, KeepsTheTermsOfASetForTheMapAndTheSearch) {
 TEST(FindViewsByAMeasure, RefusesAnObjectThatItCannotLookAtAlone) {
   Model model = model_of(together(box(1.0, 1.0, 1.0, 2), box(0.5, 1.0, 1.0, 2), {3.0, 0.0, 0.0}));
   model.parts = {{"left", 0, 48}, {"right", 48, 48}};
-  const ViewOptions options{.method = "viewpoint-entropy", .focus = "right"};
+  const ViewOptions options = unrefined({.method = "viewpoint-entropy", .focus = "right"});
   const std::vector<Measure> areas{find_measure("viewpoint-entropy")};
   EXPECT_THROW((void)analyse_for(model, options, areas), InvalidInput);
   const std::vector<Measure> with_map{find_measure("viewpoint-entropy"), find_measure("kssm")};

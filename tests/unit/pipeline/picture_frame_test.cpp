@@ -12,6 +12,7 @@
 #include "core/degrees.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
+#include "support/unrefined.h"
 
 namespace vantage::test {
 namespace {
@@ -130,7 +131,7 @@ double least_border(const ShapeAnalysis& shape, const ViewReport& report, double
 }
 
 TEST(TourCameras, LeaveTheMarginOfTheShorterSideInAnyAspect) {
-  ViewOptions options;
+  ViewOptions options = unrefined();
   options.search.strategy = SearchStrategy::Exhaustive;
   options.search.subdivisions = 1;
   options.objective = Objective::Significance;

@@ -13,6 +13,7 @@
 #include "pipeline/scene_notes.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
+#include "support/unrefined.h"
 
 namespace vantage::test {
 namespace {
@@ -31,9 +32,13 @@ TriMesh two_spheres(double small) {
   return mesh;
 }
 
+/// Of few views.
+ViewOptions quick_check() {
+  return unrefined({.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1}});
+}
+
 TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
-  ViewOptions options;
-  options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
+  const ViewOptions options = quick_check();
   // As many vertices in both: what counts is how large a part is, not how finely it is cut.
   const ShapeAnalysis shape = analyse_shape(model_of(two_spheres(0.4)), options);
   const ViewReport report = find_views(shape, UpAxis::Y, options);
@@ -56,8 +61,7 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
 }
 
 TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesAreNoneWhereTheyOnlyHideTheFocus) {
-  ViewOptions options;
-  options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
+  ViewOptions options = quick_check();
   options.focus = "1";
   ShapeAnalysis shape = analyse_shape(model_of(two_spheres(0.4)), options);
   shape.views.reset();
@@ -72,8 +76,7 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesAreNoneWhereTheyOnlyHideTheFocus) {
 }
 
 TEST(DoubtsAbout, ASkeletonPartlyOutsideIsTheSkeletonsUntilTheViewsHangOnIt) {
-  ViewOptions options;
-  options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
+  const ViewOptions options = quick_check();
   ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 2)), options);
   const auto is_said = [](const std::vector<std::string>& warnings) {
     return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
@@ -131,8 +134,7 @@ TEST(NotesOn, PartsThatAreHiddenOrSpecksAreGiven) {
 }
 
 TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
-  ViewOptions options;
-  options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
+  const ViewOptions options = quick_check();
   ShapeAnalysis shape = analyse_shape(model_of(sphere(2)), options);
   shape.views.reset();
   const ViewReport report = find_views(shape, UpAxis::Y, options);

@@ -15,6 +15,7 @@
 
 #include "support/model_of.h"
 #include "support/shapes.h"
+#include "support/unrefined.h"
 
 namespace vantage::test {
 namespace {
@@ -87,13 +88,13 @@ TEST(AnalyseShape, IsTheSameWithACopyOfEachFace) {
     const MapScorer map(shape, visibility, by_area);
     return std::pair(map.scorer().score(Vec3(0.3, 0.4, 0.5)), map.scorer().total());
   };
-  const ShapeAnalysis alone = analyse_shape(model_of(once), {});
+  const ShapeAnalysis alone = analyse_shape(model_of(once), unrefined());
   for (const bool is_turned : {false, true}) {
     TriMesh twice = once;
     for (auto [a, b, c] : once.triangles) {
       twice.triangles.push_back(is_turned ? Triangle{a, c, b} : Triangle{b, c, a});
     }
-    const ShapeAnalysis other = analyse_shape(model_of(twice), {});
+    const ShapeAnalysis other = analyse_shape(model_of(twice), unrefined());
     EXPECT_EQ(other.significance, alone.significance) << is_turned;
     EXPECT_EQ(other.skeleton.graph.nodes, alone.skeleton.graph.nodes) << is_turned;
     EXPECT_EQ(other.skeleton.graph.edges, alone.skeleton.graph.edges) << is_turned;
@@ -170,12 +171,12 @@ TEST(AnalyseShape, ForViewsRefusesFacesWithoutArea) {
     line.positions.emplace_back(at, 3.0 * at, 1.0 - at / 3.0);
   }
   line.triangles = {{0, 1, 2}, {1, 2, 3}};
-  EXPECT_THROW(analyse_shape(model_of(line), {}), InvalidInput);
+  EXPECT_THROW(analyse_shape(model_of(line), unrefined()), InvalidInput);
   EXPECT_THROW(find_picture_view(model_of(line), prepare_surface(model_of(line)), {}),
                InvalidInput);
   line.positions.emplace_back(0.1, 0.3, 1.0);
   line.triangles.push_back({0, 3, 4});
-  EXPECT_EQ(analyse_shape(model_of(line), {}).check.zero_area_faces, 2U);
+  EXPECT_EQ(analyse_shape(model_of(line), unrefined()).check.zero_area_faces, 2U);
 }
 
 TEST(PrepareSurface, RefusesAModelWithoutExtent) {
@@ -199,7 +200,7 @@ TEST(PrepareSurface, RefusesAModelWithoutExtent) {
 TEST(AnalyseShape, CountsAllLevelsWhereThereIsNoSecondCurve) {
   const Model model = model_of(y_of_tubes(0.2, 24));
   const auto used = [&](const ViewOptions& options) {
-    const ShapeAnalysis shape = analyse_shape(model, options);
+    const ShapeAnalysis shape = analyse_shape(model, unrefined(options));
     return std::pair(shape.kssm.levels_used.size(), shape.history.levels.size());
   };
   const auto [some, all] = used({.kssm = {.level_agreement = 0.9999}});
@@ -239,7 +240,7 @@ TriMesh cells_with_walls() {
 }
 
 TEST(AnalyseShape, CountsNoFurtherLevelsWhereNoEdgeCanBeCollapsed) {
-  const ShapeAnalysis shape = analyse_shape(model_of(cells_with_walls()), {});
+  const ShapeAnalysis shape = analyse_shape(model_of(cells_with_walls()), unrefined());
   EXPECT_GT(shape.history.levels.size(), 1U);
   EXPECT_THAT(shape.kssm.levels_used, testing::ElementsAre(0U));
   EXPECT_THAT(shape.warnings, Contains("2688 faces standing there twice"));  // both are kept
@@ -248,7 +249,7 @@ TEST(AnalyseShape, CountsNoFurtherLevelsWhereNoEdgeCanBeCollapsed) {
 TEST(AnalyseShape, GivesEveryInputVertexItsValueAndNode) {
   TriMesh mesh = soup(torus(1.0, 0.3, 24, 12));
   mesh.positions.emplace_back(0.0, 0.0, 0.0);  // belongs to no face
-  const ShapeAnalysis shape = analyse_shape(model_of(mesh), {});
+  const ShapeAnalysis shape = analyse_shape(model_of(mesh), unrefined());
   const std::vector<double> map = on_input_vertices(shape, shape.significance);
   const std::vector<std::int64_t> nodes = nodes_of_input_vertices(shape);
   ASSERT_EQ(map.size(), mesh.positions.size());
@@ -267,7 +268,7 @@ TEST(AnalyseShape, GivesEveryInputVertexItsValueAndNode) {
 }
 
 TEST(AnalyseShape, FindsTheLoopOfATorus) {
-  const ShapeAnalysis shape = analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {});
+  const ShapeAnalysis shape = analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), unrefined());
   EXPECT_EQ(cycle_count(shape.skeleton.graph), 1U);
   EXPECT_EQ(*shape.check.genus, 1U);
 }
@@ -295,8 +296,7 @@ TEST(PrepareSurface, EachOfItsPartsStopsWhenAsked) {
 TEST(AnalyseShape, ForAPictureHasTheSameMapAndNoSkeletonUnlessTheMapMeasuresToThat) {
   const Model model = model_of(torus(1.0, 0.3, 48, 20));
   for (const bool to_finished : {false, true}) {
-    ViewOptions options;
-    options.kssm_to_finished_graph = to_finished;
+    const ViewOptions options = unrefined({.kssm_to_finished_graph = to_finished});
     const ShapeAnalysis whole = analyse_shape(model, options);
     const ShapeAnalysis for_picture =
         analyse_shape(model, options, {}, nullptr, AnalysisUse::Picture);
@@ -316,7 +316,7 @@ TEST(AnalyseShape, StopsWhenAsked) {
       stop.request_stop();
     }
   };
-  EXPECT_THROW(analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {}, run), Cancelled);
+  EXPECT_THROW(analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), unrefined(), run), Cancelled);
 }
 
 TEST(AnalyseShape, ReportsProgressThatNeverGoesBack) {
@@ -326,7 +326,7 @@ TEST(AnalyseShape, ReportsProgressThatNeverGoesBack) {
     EXPECT_GE(fraction, last);
     last = fraction;
   };
-  analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {}, run);
+  analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), unrefined(), run);
   EXPECT_EQ(last, 1.0);
 }
 
