@@ -2,6 +2,11 @@
 #include "vantage/report/figures.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +17,7 @@
 #include "report/sphere_figure.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
+#include "support/unrefined.h"
 
 namespace vantage::test {
 namespace {
@@ -23,12 +29,24 @@ Image of_colour(std::uint8_t value, int width, int height) {
 
 /// Pictures of 48 × 36 pixels, of the views that an icosahedron once divided has.
 ViewOptions small_and_quick() {
-  ViewOptions options;
+  ViewOptions options = unrefined();
   options.width = 48;
   options.height = 36;
   options.search.strategy = SearchStrategy::Exhaustive;
   options.search.subdivisions = 1;
   return options;
+}
+
+/// A Y of tubes. Analysed once a process.
+const ShapeAnalysis& analysed_y() {
+  static const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 16)), unrefined());
+  return shape;
+}
+
+/// A cloud, some points of which no triangle joins. Analysed once a process.
+const ShapeAnalysis& analysed_ball_and_pole() {
+  static const ShapeAnalysis shape = analyse_shape(model_of(points_of_ball_and_pole()), {});
+  return shape;
 }
 
 TEST(SideBySide, PutsPanelsInOrderOnWhite) {
@@ -47,9 +65,29 @@ TEST(SideBySide, RefusesPanelsOfDifferentSizesAndNone) {
   EXPECT_THROW(side_by_side({}), InvalidInput);
 }
 
+/// The pixels of a panel of 48 × 36.
+std::vector<std::uint8_t> panel_of(const Image& figure, int panel) {
+  std::vector<std::uint8_t> pixels;
+  for (int y = 8; y < 8 + 36; ++y) {
+    const std::uint8_t* const row = figure.pixel(8 + panel * 56, y);
+    pixels.insert(pixels.end(), row, row + std::ptrdiff_t{4} * 48);
+  }
+  return pixels;
+}
+
+/// How many of them are red or blue.
+int coloured_pixels(const Image& figure, int panel) {
+  const std::vector<std::uint8_t> pixels = panel_of(figure, panel);
+  int count = 0;
+  for (std::size_t at = 0; at < pixels.size(); at += 4) {
+    count += std::abs(pixels[at] - pixels[at + 2]) > 60 ? 1 : 0;
+  }
+  return count;
+}
+
 TEST(PaperFigures, ShowEachLevelAndEndWithTheMap) {
   const ViewOptions options = small_and_quick();
-  const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);
+  const ShapeAnalysis& shape = analysed_y();
   const ViewReport report = find_views(shape, UpAxis::Y, options);
   const std::vector<Figure> figures = paper_figures(shape, report, options);
   ASSERT_EQ(figures.size(), 8U);
@@ -60,11 +98,13 @@ TEST(PaperFigures, ShowEachLevelAndEndWithTheMap) {
   EXPECT_EQ(panels(figures[4].image), 3);
   EXPECT_EQ(panels(figures[5].image), 2);
   EXPECT_EQ(panels(figures[6].image), 4);
-  // The first panel of the contraction is the model as figure 5 shows it.
-  for (int y = 8; y < 8 + 36; ++y) {
-    EXPECT_TRUE(std::equal(figures[0].image.pixel(8, y), figures[0].image.pixel(8 + 48, y),
-                           figures[4].image.pixel(8, y)));
-  }
+  // The first panel of the contraction is the model as figure 5 shows it, the last of figure 3 its map.
+  EXPECT_EQ(panel_of(figures[0].image, 0), panel_of(figures[4].image, 0));
+  EXPECT_EQ(panel_of(figures[2].image, levels), panel_of(figures[4].image, 1));
+  EXPECT_EQ(coloured_pixels(figures[0].image, levels - 1), 0);
+  EXPECT_GT(coloured_pixels(figures[1].image, 1), 10);
+  EXPECT_GT(coloured_pixels(figures[2].image, 1), 10);
+  EXPECT_GT(coloured_pixels(figures[2].image, levels), 10);
 }
 
 TEST(PaperFigures, DrawTheSearchAsLinesAndAsPixels) {
@@ -72,7 +112,7 @@ TEST(PaperFigures, DrawTheSearchAsLinesAndAsPixels) {
   options.width = 48;
   options.height = 36;
   options.search.strategy = SearchStrategy::Rapid;
-  const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 16)), options);
+  const ShapeAnalysis& shape = analysed_y();
   for (const Figure& figure :
        paper_figures(shape, find_views(shape, UpAxis::Y, options), options)) {
     EXPECT_EQ(figure.svg.empty(), figure.name != "figure-4-search") << figure.name;
@@ -85,7 +125,7 @@ TEST(PaperFigures, DrawTheSearchAsLinesAndAsPixels) {
 
 TEST(SpherePanel, IsRaisedByTheScoreThatTheWeightAsksFor) {
   ViewOptions options;
-  const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 16)), options);
+  const ShapeAnalysis& shape = analysed_y();
   const auto panel = [&](Weight weight) {
     options.weight = weight;
     return sphere_panel(shape, shape.significance, Vec3::UnitX(), UpAxis::Y, options,
@@ -95,9 +135,67 @@ TEST(SpherePanel, IsRaisedByTheScoreThatTheWeightAsksFor) {
   EXPECT_NE(panel(Weight::Vertex).rgba, panel(Weight::Area).rgba);
 }
 
+/// Rows of a picture from the first to the last in which a pixel is `wanted`.
+template <typename Wanted>
+std::pair<int, int> rows_of(const Image& picture, const Wanted& wanted) {
+  std::pair<int, int> rows{picture.height, -1};
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (wanted(x, y)) {
+        rows = {std::min(rows.first, y), y};
+      }
+    }
+  }
+  return rows;
+}
+
+/// Red less blue, over a row of pixels.
+double warmth_of_row(const Image& picture, int row) {
+  double sum = 0.0;
+  for (int x = 0; x < picture.width; ++x) {
+    sum += static_cast<double>(picture.pixel(x, row)[0]) - picture.pixel(x, row)[2];
+  }
+  return sum;
+}
+
+TEST(SpherePanel, IsFarOutAndWarmWhereMuchIsSeen) {
+  ShapeAnalysis shape = prepare_surface(model_of(sphere(3)));
+  std::vector<double> height;
+  std::vector<double> depth;
+  for (const Vec3& p : shape.surface.positions) {
+    height.push_back(p.y());
+    depth.push_back(-p.y());
+  }
+  for (const double top : {1.0, -1.0}) {
+    shape.significance.clear();
+    for (const double y : height) {
+      shape.significance.push_back(std::max(0.0, top * y));
+    }
+    const auto panel = [&](const std::vector<double>& shown) {
+      return sphere_panel(shape, shown, Vec3::UnitZ(), UpAxis::Y, unrefined(),
+                          {.width = 120, .height = 120}, {});
+    };
+    const Image wires = panel(height);
+    const Image turned = panel(depth);
+    const auto [first, last] =
+        rows_of(wires, [&](int x, int y) { return wires.pixel(x, y)[3] > 0; });
+    // What changes with the values that are shown is the ball between the wires.
+    const auto [first_of_ball, last_of_ball] = rows_of(wires, [&](int x, int y) {
+      return !std::equal(wires.pixel(x, y), wires.pixel(x, y) + 4, turned.pixel(x, y));
+    });
+    const int above = first_of_ball - first;
+    const int below = last - last_of_ball;
+    const double of_top = warmth_of_row(wires, first + 3);
+    const double of_bottom = warmth_of_row(wires, last - 3);
+    EXPECT_GT(top > 0.0 ? above : below, 2 * (top > 0.0 ? below : above));
+    EXPECT_GT(top * of_top, 0.0);
+    EXPECT_LT(top * of_bottom, 0.0);
+  }
+}
+
 TEST(SpherePanel, ColoursThePointsThatNoTriangleJoins) {
   const ViewOptions options;
-  const ShapeAnalysis shape = analyse_shape(model_of(points_of_ball_and_pole()), options);
+  const ShapeAnalysis& shape = analysed_ball_and_pole();
   std::vector<double> shown(shape.surface.positions.size(), 0.0);
   const auto panel = [&] {
     return sphere_panel(shape, shown, Vec3::UnitX(), UpAxis::Y, options,
@@ -124,11 +222,10 @@ TEST(TimesTable, HasOneRowAModelAndAddsUp) {
 
 /// Pixels of a panel of 48 × 36 that are not white.
 int ink(const Image& figure, int panel) {
+  const std::vector<std::uint8_t> pixels = panel_of(figure, panel);
   int count = 0;
-  for (int y = 8; y < 8 + 36; ++y) {
-    for (int x = 8 + panel * 56; x < 8 + panel * 56 + 48; ++x) {
-      count += figure.pixel(x, y)[0] < 250 || figure.pixel(x, y)[2] < 250 ? 1 : 0;
-    }
+  for (std::size_t at = 0; at < pixels.size(); at += 4) {
+    count += pixels[at] < 250 || pixels[at + 2] < 250 ? 1 : 0;
   }
   return count;
 }
@@ -157,7 +254,7 @@ TEST(PaperFigures, OfACloudShowItsPointsAsTheyContractAndNoSaliency) {
 
 TEST(PaperFigures, OfACloudShowInFigure3ThePointsThatNoTriangleJoins) {
   const ViewOptions options = small_and_quick();
-  const ShapeAnalysis shape = analyse_shape(model_of(points_of_ball_and_pole()), options);
+  const ShapeAnalysis& shape = analysed_ball_and_pole();
   ViewReport report = find_views(shape, UpAxis::Y, options);
   // From y = 2.25 to 3.75, where there is nothing else.
   report.best.picture = {.projection = Projection::Orthographic,
