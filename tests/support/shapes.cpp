@@ -231,6 +231,14 @@ TriMesh sphere(int level) {
   return mesh;
 }
 
+TriMesh cube_sphere(int cells) {
+  TriMesh mesh = box(2.0, 2.0, 2.0, cells);
+  for (Vec3& p : mesh.positions) {
+    p = (0.25 * std::numbers::pi * (p - Vec3::Ones())).array().tan().matrix().normalized();
+  }
+  return mesh;
+}
+
 TriMesh torus(double major, double minor, int major_segments, int minor_segments) {
   TriMesh mesh;
   for (int i = 0; i < major_segments; ++i) {

@@ -11,6 +11,9 @@ namespace vantage::test {
 /// Icosphere of radius 1 around the origin; level n has 10·4^n + 2 vertices.
 TriMesh sphere(int level);
 
+/// The surface of a cube of so many cells a side, drawn out to the unit sphere: alike angles a cell.
+TriMesh cube_sphere(int cells);
+
 /// UV torus around the z axis. \param major distance of the tube's axis from the origin.
 TriMesh torus(double major, double minor, int major_segments, int minor_segments);
 

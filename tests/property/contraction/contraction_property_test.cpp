@@ -7,11 +7,11 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "vantage/contraction/contraction.h"
 #include "vantage/mesh/measures.h"
 
+#include "support/many_threads.h"
 #include "support/named_mesh.h"
 #include "support/once.h"
 #include "support/shapes.h"
@@ -82,7 +82,7 @@ TEST_P(ContractionOf, CommutesWithSimilarities) {
   const ContractionHistory& plain = contraction_as_is(GetParam());
   const Vec3 axis(1, 2, 3);
   double worst = 0.0;
-  for (const double scale : {1e-8, 1.0, 1e8}) {
+  for (const double scale : {1e-8, 1e8}) {
     const Vec3 shift = scale * Vec3(3, -2, 1);
     const ContractionHistory other = contract(test::moved(mesh, scale, 0.7, axis, shift));
     ASSERT_EQ(other.levels.size(), plain.levels.size()) << scale;
@@ -128,14 +128,12 @@ TEST_P(ContractionOf, DoesNotDependOnWhatElseIsInTheFile) {
 }
 
 TEST_P(ContractionOf, HasTheSameBytesForAnyNumberOfThreads) {
-  const tbb::global_control raised(tbb::global_control::max_allowed_parallelism, 8);
   const ContractionHistory one = contract(GetParam().mesh, {}, {.max_threads = 1});
   EXPECT_EQ(contraction_as_is(GetParam()).levels, one.levels);  // by as many as there are cores
-  for (const int threads : {3, 8}) {
-    const ContractionHistory other = contract(GetParam().mesh, {}, {.max_threads = threads});
-    EXPECT_EQ(one.levels, other.levels) << threads;
-    EXPECT_EQ(one.shrinkage, other.shrinkage) << threads;
-  }
+  const ContractionHistory three =
+      test::with_many_threads([&] { return contract(GetParam().mesh, {}, {.max_threads = 3}); });
+  EXPECT_EQ(one.levels, three.levels);
+  EXPECT_EQ(one.shrinkage, three.shrinkage);
 }
 
 TEST_P(ContractionOf, SucceedsWithTheScalingOfThePaper) {
@@ -148,27 +146,18 @@ TEST_P(ContractionOf, SucceedsWithTheScalingOfThePaper) {
 INSTANTIATE_TEST_SUITE_P(Shapes, ContractionOf, ::testing::ValuesIn(shapes()),
                          [](const auto& instance) { return instance.param.name; });
 
-/// The surface of a cube of so many cells a side, drawn out to the unit sphere: alike angles a cell.
-TriMesh cube_sphere(int cells) {
-  TriMesh mesh = test::box(2.0, 2.0, 2.0, cells);
-  for (Vec3& p : mesh.positions) {
-    p = (0.25 * std::numbers::pi * (p - Vec3::Ones())).array().tan().matrix().normalized();
-  }
-  return mesh;
-}
-
 /// Fine smooth surfaces begin to shrink step by step, and somewhere on that way by less than the tolerance.
 TEST(ContractionOfFineSpheres, DoesNotEndBeforeItHasBegun) {
   for (const int cells : {14, 27, 42, 44, 46}) {
     const ContractionHistory history =
-        contract(cube_sphere(cells),
+        contract(test::cube_sphere(cells),
                  {.method = ContractionMethod::Exact, .scaling = ContractionScaling::Box});
     EXPECT_LT(history.shrinkage.back(), 0.1) << cells;
   }
 }
 
 TEST(ContractionOfFineSpheres, DoesNotEndBeforeItHasBegunBySmallSteps) {
-  const ContractionHistory history = contract(cube_sphere(44), {.contraction_growth = 1.5});
+  const ContractionHistory history = contract(test::cube_sphere(44), {.contraction_growth = 1.5});
   EXPECT_LT(history.shrinkage.back(), 0.1);
 }
 
@@ -197,12 +186,14 @@ TEST(ContractionOfFineSpheres, DoesNotEndBeforeItHasBegunAsACloud) {
 
 TEST(ContractionOfAY, TakesFewerStepsTheMoreAStepMustTakeOff) {
   const TriMesh mesh = test::y_of_tubes(0.25, 32);
-  std::size_t before = contract(mesh).level_count();
+  const std::size_t usual = contract(mesh).level_count();
+  std::size_t before = usual;
   for (const double tolerance : {0.05, 0.2, 0.5, 0.8, 0.95, 1.0}) {
     const std::size_t levels = contract(mesh, {.shrinkage_tolerance = tolerance}).level_count();
     EXPECT_LE(levels, before) << tolerance;
     before = levels;
   }
+  EXPECT_LT(before, usual);
 }
 
 TEST(ContractByProxy, TriesOtherWaysWhereTheProxyIsStuck) {

@@ -36,7 +36,7 @@ constexpr double kThin = 0.04;  // what a curve has left of its area, docs/contr
 
 /// Too many vertices to be contracted exactly by default.
 TriMesh egg() {
-  TriMesh mesh = test::sphere(6);
+  TriMesh mesh = test::cube_sphere(60);
   for (Vec3& p : mesh.positions) {
     p.x() *= 4.0;
   }

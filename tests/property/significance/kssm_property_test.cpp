@@ -4,14 +4,15 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "vantage/significance/kssm.h"
 #include "vantage/skeleton/skeleton.h"
 
 #include "core/random.h"
 #include "support/dense_oracles.h"
+#include "support/many_threads.h"
 #include "support/named_mesh.h"
+#include "support/once.h"
 #include "support/shapes.h"
 #include "support/worst.h"
 
@@ -65,11 +66,20 @@ std::vector<KssmOptions> all_options() {
   return all;
 }
 
+/// The contraction and the skeleton of a shape, each computed once a process.
+const ContractionHistory& history_of(const NamedMesh& shape) {
+  return test::once(shape.name, [&] { return contract(shape.mesh); });
+}
+
+const Skeleton& skeleton_of(const NamedMesh& shape) {
+  return test::once(shape.name, [&] { return extract_skeleton(shape.mesh, history_of(shape)); });
+}
+
 class KssmOf : public ::testing::TestWithParam<NamedMesh> {
  protected:
-  const TriMesh shape_mesh = GetParam().mesh;
-  const ContractionHistory shape_history = contract(shape_mesh);
-  const Skeleton shape_skeleton = extract_skeleton(shape_mesh, shape_history);
+  const TriMesh& shape_mesh = GetParam().mesh;
+  const ContractionHistory& shape_history = history_of(GetParam());
+  const Skeleton& shape_skeleton = skeleton_of(GetParam());
 };
 
 TEST_P(KssmOf, AgreesWithADirectEvaluation) {
@@ -95,15 +105,13 @@ TEST_P(KssmOf, IsAtLeastZeroAndAtMostOneALevel) {
 }
 
 TEST_P(KssmOf, HasTheSameBytesForAnyNumberOfThreads) {
-  const tbb::global_control raised(tbb::global_control::max_allowed_parallelism, 8);
   const KssmMap one =
       compute_kssm(shape_mesh, shape_history, shape_skeleton.raw, {}, {.max_threads = 1});
-  for (const int threads : {2, 3, 8}) {
-    const KssmMap other =
-        compute_kssm(shape_mesh, shape_history, shape_skeleton.raw, {}, {.max_threads = threads});
-    EXPECT_EQ(one.of_vertex, other.of_vertex) << threads;
-    EXPECT_EQ(one.displacement, other.displacement) << threads;
-  }
+  const KssmMap three = test::with_many_threads([&] {
+    return compute_kssm(shape_mesh, shape_history, shape_skeleton.raw, {}, {.max_threads = 3});
+  });
+  EXPECT_EQ(one.of_vertex, three.of_vertex);
+  EXPECT_EQ(one.displacement, three.displacement);
 }
 
 TEST_P(KssmOf, DoesNotChangeWhenEverythingIsMovedTogether) {

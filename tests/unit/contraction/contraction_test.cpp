@@ -15,6 +15,7 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "support/many_threads.h"
 #include "support/shapes.h"
 #include "support/worst.h"
 
@@ -22,6 +23,9 @@ namespace vantage {
 namespace {
 
 using ::testing::HasSubstr;
+
+/// Without refining coarse parts first, which takes longer than all else.
+constexpr ContractionOptions kAsTheyAre{.method = ContractionMethod::Exact};
 
 void expect_finite(const ContractionHistory& history) {
   for (const auto& level : history.levels) {
@@ -34,7 +38,7 @@ void expect_finite(const ContractionHistory& history) {
 TEST(Contract, LevelZeroIsTheInputBitForBit) {
   const TriMesh mesh =
       test::moved(test::torus(1.0, 0.3, 16, 8), 1e-3, 0.7, Vec3(1, 2, 3), Vec3(5, 6, 7));
-  EXPECT_EQ(contract(mesh).levels.front(), mesh.positions);
+  EXPECT_EQ(contract(mesh, kAsTheyAre).levels.front(), mesh.positions);
 }
 
 TEST(Contract, BringsACylinderToItsAxis) {
@@ -65,7 +69,7 @@ TEST(Contract, LeavesIsolatedVerticesExactlyWhereTheyAre) {
   TriMesh mesh = test::torus(1.0, 0.3, 16, 8);
   const Vec3 place(0.1, 0.2, 1.0 / 3.0);
   mesh.positions.push_back(place);
-  const ContractionHistory history = contract(mesh);
+  const ContractionHistory history = contract(mesh, kAsTheyAre);
   ASSERT_GE(history.level_count(), 1U);
   for (const auto& level : history.levels) {
     EXPECT_EQ(level.back(), place);
@@ -97,7 +101,7 @@ TEST(Contract, SurvivesFacesThatNameAVertexTwice) {
   TriMesh mesh = test::box(1, 1, 3, 5);
   mesh.triangles.push_back({0, 0, 1});
   mesh.triangles.push_back({2, 2, 2});
-  const ContractionHistory history = contract(mesh);
+  const ContractionHistory history = contract(mesh, kAsTheyAre);
   expect_finite(history);
   EXPECT_GE(history.level_count(), 1U);
 }
@@ -109,7 +113,7 @@ TEST(Contract, SurvivesFacesThatStandTwice) {
     mesh.triangles.push_back(copy);
     mesh.triangles.push_back({copy[0], copy[2], copy[1]});
   }
-  const ContractionHistory history = contract(mesh);
+  const ContractionHistory history = contract(mesh, kAsTheyAre);
   expect_finite(history);
   EXPECT_GE(history.level_count(), 1U);
 }
@@ -138,7 +142,7 @@ TEST(Contract, SurvivesAVertexOfWhichEveryFaceHasNoArea) {
   const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.emplace_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
   mesh.triangles.push_back({a, b, middle});
-  const ContractionHistory history = contract(mesh);
+  const ContractionHistory history = contract(mesh, kAsTheyAre);
   expect_finite(history);
   EXPECT_LT(history.shrinkage.back(), 0.5);
 }
@@ -154,7 +158,7 @@ TEST(Contract, GivesBackTheVertexOrderOfTwoInterwovenComponents) {
     mesh.triangles.push_back({2 * a, 2 * b, 2 * c});
     mesh.triangles.push_back({2 * a + 1, 2 * b + 1, 2 * c + 1});
   }
-  const ContractionHistory history = contract(mesh);
+  const ContractionHistory history = contract(mesh, kAsTheyAre);
   ASSERT_EQ(history.components.size(), 2U);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     EXPECT_EQ(history.component_of_vertex[v], v % 2);
@@ -218,15 +222,12 @@ TEST(ContractProgress, NeverGoesBackOverManyComponents) {
   }
   std::vector<double> seen;
   const auto report = [&](std::string_view, double f) { seen.push_back(f); };
-  contract(mesh, {}, {.report = report, .max_threads = 1});  // others are silent
+  contract(mesh, kAsTheyAre, {.report = report, .max_threads = 1});  // others are silent
   ASSERT_GE(seen.size(), 5U);
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 1.0);
   EXPECT_GE(seen.front(), 0.0);
 }
-
-/// Without refining coarse parts first, which takes longer than all else.
-constexpr ContractionOptions kAsTheyAre{.method = ContractionMethod::Exact};
 
 /// Contracts on one thread and requests a stop at the given report; returns how many reports came.
 int reports_until_stop(const TriMesh& mesh, int stop_at) {
@@ -269,12 +270,11 @@ TEST(Contract, OfManyPartsIsTheSameForAnyNumberOfThreads) {
   }
   constexpr ContractionOptions kTwoSteps{.max_steps = 2};
   const ContractionHistory alone = contract(mesh, kTwoSteps, {.max_threads = 1});
-  for (const int threads : {2, 3, 8}) {
-    const ContractionHistory many = contract(mesh, kTwoSteps, {.max_threads = threads});
-    EXPECT_EQ(many.levels, alone.levels) << threads;
-    EXPECT_EQ(many.component_of_vertex, alone.component_of_vertex) << threads;
-    EXPECT_EQ(many.shrinkage, alone.shrinkage) << threads;
-  }
+  const ContractionHistory many =
+      test::with_many_threads([&] { return contract(mesh, kTwoSteps, {.max_threads = 3}); });
+  EXPECT_EQ(many.levels, alone.levels);
+  EXPECT_EQ(many.component_of_vertex, alone.component_of_vertex);
+  EXPECT_EQ(many.shrinkage, alone.shrinkage);
 }
 
 TEST(ContractCancel, StopsAtEveryReportedFraction) {

@@ -115,16 +115,22 @@ TEST(SmallSurfaces, LeaveAVertexThatHangsOnADegenerateFaceWhereItIs) {
 
 TEST(SmallSurfaces, ContractInUnitsFromTheTinyToTheHuge) {
   const TriMesh mesh = test::torus(1.0, 0.3, 16, 8);
-  const ContractionHistory plain = contract(mesh);
-  for (const int exponent : {-400, -100, 100, 400}) {  // exact: powers of two
-    const double scale = std::ldexp(1.0, exponent);
-    const ContractionHistory other =
-        contract(test::moved(mesh, scale, 0.0, Vec3::UnitX(), Vec3::Zero()));
-    ASSERT_EQ(other.levels.size(), plain.levels.size()) << exponent;
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      EXPECT_LE((other.levels.back()[v] / scale - plain.levels.back()[v]).norm(), 1e-9) << exponent;
+  const auto expect_the_same = [&](const ContractionOptions& options,
+                                   const std::vector<int>& exponents) {
+    const ContractionHistory plain = contract(mesh, options);
+    for (const int exponent : exponents) {  // exact: powers of two
+      const double scale = std::ldexp(1.0, exponent);
+      const ContractionHistory other =
+          contract(test::moved(mesh, scale, 0.0, Vec3::UnitX(), Vec3::Zero()), options);
+      ASSERT_EQ(other.levels.size(), plain.levels.size()) << exponent;
+      for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        EXPECT_LE((other.levels.back()[v] / scale - plain.levels.back()[v]).norm(), 1e-9)
+            << exponent;
+      }
     }
-  }
+  };
+  expect_the_same({.method = ContractionMethod::Exact}, {-400, -100, 100, 400});
+  expect_the_same({}, {-400});  // refined first
 }
 
 TEST(SmallSurfaces, AreNotSaidToHaveTakenAStepThatWasDiscarded) {
