@@ -11,6 +11,7 @@
 #include "vantage/skeleton/skeleton.h"
 
 #include "support/dense_oracles.h"
+#include "support/once.h"
 #include "support/shapes.h"
 #include "support/skeletons.h"
 #include "support/voxel_surface.h"
@@ -22,28 +23,58 @@ namespace {
 using test::ends_of;
 using test::skeleton_of;
 
+constexpr double kMinor = 0.25;   // radius of the torus's tube
+constexpr double kRadius = 0.25;  // of the cylinder
+
+TriMesh torus() {
+  return test::torus(1.0, kMinor, 60, 20);
+}
+
+/// Of length 4.
+TriMesh cylinder() {
+  return test::cylinder(kRadius, 4.0, 24, 48);
+}
+
+/// Their skeletons and that of a Y of tubes, finished or not. Each found once a process.
+const Skeleton& torus_skeleton() {
+  static const Skeleton skeleton = skeleton_of(torus());
+  return skeleton;
+}
+
+const Skeleton& cylinder_skeleton() {
+  static const Skeleton skeleton = skeleton_of(cylinder());
+  return skeleton;
+}
+
+const Skeleton& y_skeleton(bool is_finished) {
+  static const TriMesh mesh = test::y_of_tubes(0.25, 20);
+  static const ContractionHistory history = contract(mesh);
+  return test::once(is_finished, [&] {
+    return is_finished ? extract_skeleton(mesh, history)
+                       : extract_skeleton(mesh, history, {.centre = false, .prune = false});
+  });
+}
+
 TEST(ExtractSkeleton, OfATorusIsOneCycleNearItsCoreCircle) {
-  const double minor = 0.25;
-  const Skeleton skeleton = skeleton_of(test::torus(1.0, minor, 60, 20));
+  const Skeleton& skeleton = torus_skeleton();
   EXPECT_EQ(cycle_count(skeleton.graph), 1U);
   EXPECT_EQ(component_count(skeleton.graph), 1U);
   double worst = 0.0;
   for (const Vec3& p : skeleton.graph.nodes) {
     worst = test::larger(worst, std::hypot(std::hypot(p.x(), p.y()) - 1.0, p.z()));
   }
-  RecordProperty("farthest_from_circle_in_tube_radii", std::to_string(worst / minor));
-  EXPECT_LE(worst, minor);
+  RecordProperty("farthest_from_circle_in_tube_radii", std::to_string(worst / kMinor));
+  EXPECT_LE(worst, kMinor);
 }
 
 TEST(ExtractSkeleton, OfATorusHasTheLengthOfItsCoreCircle) {
-  const Skeleton skeleton = skeleton_of(test::torus(1.0, 0.25, 60, 20));
-  EXPECT_NEAR(total_length(skeleton.graph), 2.0 * std::numbers::pi, 0.05 * 2.0 * std::numbers::pi);
+  EXPECT_NEAR(total_length(torus_skeleton().graph), 2.0 * std::numbers::pi,
+              0.05 * 2.0 * std::numbers::pi);
 }
 
 TEST(ExtractSkeleton, OfATorusHasTheRadiusOfItsTube) {
-  const double minor = 0.25;
-  for (const double radius : skeleton_of(test::torus(1.0, minor, 60, 20)).radius) {
-    EXPECT_NEAR(radius, minor, 0.1 * minor);
+  for (const double radius : torus_skeleton().radius) {
+    EXPECT_NEAR(radius, kMinor, 0.1 * kMinor);
   }
 }
 
@@ -80,25 +111,23 @@ TEST(ExtractSkeleton, OfASphereHasNoCycleAndIsShort) {
 }
 
 TEST(ExtractSkeleton, OfACylinderIsAPathOnItsAxis) {
-  const double radius = 0.25;
-  const Skeleton skeleton = skeleton_of(test::cylinder(radius, 4.0, 24, 48));
+  const Skeleton& skeleton = cylinder_skeleton();
   EXPECT_EQ(ends_of(skeleton.graph).size(), 2U);
   EXPECT_THAT(node_degrees(skeleton.graph), ::testing::Each(::testing::Le(2U)));
   for (const Vec3& p : skeleton.graph.nodes) {
-    EXPECT_LE(std::hypot(p.x(), p.y()), 0.05 * radius);
+    EXPECT_LE(std::hypot(p.x(), p.y()), 0.05 * kRadius);
   }
 }
 
 TEST(ExtractSkeleton, OfACylinderReachesNearBothCaps) {
-  const double radius = 0.25;
-  std::vector<Vec3> ends = ends_of(skeleton_of(test::cylinder(radius, 4.0, 24, 48)).graph);
+  std::vector<Vec3> ends = ends_of(cylinder_skeleton().graph);
   ASSERT_EQ(ends.size(), 2U);
   std::sort(ends.begin(), ends.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
-  RecordProperty("end_depth_in_radii", std::to_string(ends[0].z() / radius));
+  RecordProperty("end_depth_in_radii", std::to_string(ends[0].z() / kRadius));
   EXPECT_GE(ends[0].z(), 0.0);
-  EXPECT_LE(ends[0].z(), 2.0 * radius);
+  EXPECT_LE(ends[0].z(), 2.0 * kRadius);
   EXPECT_LE(ends[1].z(), 4.0);
-  EXPECT_GE(ends[1].z(), 4.0 - 2.0 * radius);
+  EXPECT_GE(ends[1].z(), 4.0 - 2.0 * kRadius);
 }
 
 TEST(ExtractSkeleton, OfAnOpenCylinderIsAPath) {
@@ -172,23 +201,20 @@ TEST(ExtractSkeleton, KnowsTheNodeOfEveryVertexButIsolatedOnes) {
 }
 
 TEST(ExtractSkeleton, HasARadiusForEveryNode) {
-  const Skeleton skeleton = skeleton_of(test::y_of_tubes(0.25, 20));
+  const Skeleton& skeleton = y_skeleton(true);
   ASSERT_EQ(skeleton.radius.size(), skeleton.graph.nodes.size());
   EXPECT_THAT(skeleton.radius, ::testing::Each(::testing::Gt(0.0)));
 }
 
 TEST(ExtractSkeleton, WithoutCentringAndPruningIsTheRawGraph) {
-  const Skeleton skeleton =
-      skeleton_of(test::y_of_tubes(0.25, 20), {.centre = false, .prune = false});
+  const Skeleton& skeleton = y_skeleton(false);
   EXPECT_EQ(skeleton.graph.nodes, skeleton.raw.nodes);
   EXPECT_EQ(skeleton.graph.edges, skeleton.raw.edges);
   EXPECT_EQ(skeleton.node_of_vertex, skeleton.raw_node_of_vertex);
 }
 
 TEST(ExtractSkeleton, LeavesTheRawGraphAloneWhateverFinishesIt) {
-  const TriMesh mesh = test::y_of_tubes(0.25, 20);
-  EXPECT_EQ(skeleton_of(mesh).raw.nodes,
-            skeleton_of(mesh, {.centre = false, .prune = false}).raw.nodes);
+  EXPECT_EQ(y_skeleton(true).raw.nodes, y_skeleton(false).raw.nodes);
 }
 
 /// A rod with a wart less high than the rod is thick.
@@ -209,12 +235,15 @@ TEST(ExtractSkeleton, PrunesNothingLongerThanThick) {
 }
 
 TEST(ExtractSkeleton, KeepsEveryNodeOfARoundShapeInside) {
-  for (const TriMesh& mesh : {test::torus(1.0, 0.25, 60, 20), test::y_of_tubes(0.2, 24),
-                              test::cylinder(0.25, 4.0, 24, 48)}) {
-    for (const Vec3& p : skeleton_of(mesh).graph.nodes) {
+  const auto expect_inside = [](const TriMesh& mesh, const Skeleton& skeleton) {
+    for (const Vec3& p : skeleton.graph.nodes) {
       EXPECT_NEAR(test::winding_number(mesh, p), 1.0, 1e-9);
     }
-  }
+  };
+  expect_inside(torus(), torus_skeleton());
+  expect_inside(cylinder(), cylinder_skeleton());
+  const TriMesh tubes = test::y_of_tubes(0.2, 24);
+  expect_inside(tubes, skeleton_of(tubes));
 }
 
 TEST(ExtractSkeleton, OfNothingIsNothing) {
