@@ -8,7 +8,6 @@
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "vantage/io/camera_files.h"
 
@@ -21,6 +20,8 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
+
+#include "core/json_text.h"
 
 namespace vantage {
 namespace {
@@ -109,7 +110,7 @@ TEST(ViewsTransforms, GivesEachFrameItsOwnLens) {
   std::vector<NamedCamera> cameras{{round_trip(2)[0], "a.png", {200, 100}},
                                    {round_trip(2)[1], "b.png", {100, 300}}};
   cameras[1].camera.fov_y_deg = 60.0;
-  const auto json = nlohmann::json::parse(views_transforms_json(cameras));
+  const auto json = parsed_json(views_transforms_json(cameras));
   ASSERT_EQ(json["frames"].size(), 2U);
   EXPECT_EQ(json["frames"][0]["file_path"], "a.png");
   EXPECT_EQ(json["frames"][1]["file_path"], "b.png");

@@ -9,11 +9,11 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
 
 #include "core/degrees.h"
+#include "core/json_text.h"
 
 namespace vantage::test {
 namespace {
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(BothProjections, CameraFile,
 
 TEST(CameraGltf, LooksAlongMinusZOfItsNode) {
   const Camera camera = slanted(Projection::Perspective);
-  const auto file = nlohmann::json::parse(camera_gltf(camera, {640, 480}, 2.0));
+  const auto file = parsed_json(camera_gltf(camera, {640, 480}, 2.0));
   const auto matrix = file["nodes"][0]["matrix"].get<std::vector<double>>();
   const Vec3 z(matrix[8], matrix[9], matrix[10]);  // third column
   EXPECT_LT((z - (camera.eye - camera.target).normalized()).norm(), 1e-15);
@@ -81,7 +81,7 @@ TEST(CameraGltf, LooksAlongMinusZOfItsNode) {
 
 TEST(CameraGltf, EnclosesTheSceneBetweenItsPlanes) {
   const Camera camera = slanted(Projection::Perspective);
-  const auto file = nlohmann::json::parse(camera_gltf(camera, {640, 480}, 2.0));
+  const auto file = parsed_json(camera_gltf(camera, {640, 480}, 2.0));
   const auto& lens = file["cameras"][0]["perspective"];
   const double distance = std::sqrt(2.0 * 2 + 3 * 3 + 4 * 4);
   EXPECT_NEAR(lens["znear"].get<double>(), distance - 2.0, 1e-12);
@@ -92,7 +92,7 @@ TEST(CameraGltf, EnclosesTheSceneBetweenItsPlanes) {
 TEST(CameraTransforms, GiveTheHorizontalAngleInRadians) {
   Camera camera = slanted(Projection::Perspective);
   camera.fov_y_deg = 90.0;  // half the height is 1 at distance 1, half the width 2
-  const auto file = nlohmann::json::parse(camera_transforms_json(camera, {800, 400}, "a.png"));
+  const auto file = parsed_json(camera_transforms_json(camera, {800, 400}, "a.png"));
   EXPECT_NEAR(file["camera_angle_x"].get<double>(), 2.0 * std::atan(2.0), 1e-12);
   EXPECT_NEAR(file["fl_x"].get<double>(), 200.0, 1e-9);
 }

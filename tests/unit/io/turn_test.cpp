@@ -8,12 +8,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
+#include "core/json_text.h"
 #include "glb_bytes.h"
 #include "io/byte_cursor.h"
 
@@ -119,7 +119,7 @@ TEST(TurnedBytes, OfAGltfWithoutScenesTurnTheNodesThatAreNobodysChild) {
   for (const std::string scenes : {"", R"("scenes":[],)"}) {
     const std::string text = R"({"asset":{"version":"2.0"},)" + scenes +
                              R"("nodes":[{},{"children":[0]},{"children":[3]},{}]})";
-    const auto root = nlohmann::json::parse(turned(text, "a.gltf", ModelFormat::Gltf));
+    const auto root = parsed_json(turned(text, "a.gltf", ModelFormat::Gltf));
     ASSERT_EQ(root["scenes"].size(), 1U) << scenes;
     EXPECT_EQ(root["scene"], 0);
     std::set<std::size_t> shown;
@@ -143,10 +143,10 @@ TEST(TurnedBytes, OfAGltfInWhichNothingCanBeTurnedAreRefused) {
 TEST(TurnedBytes, OfAGltfTurnEachNodeOnceHoweverManyScenesShowIt) {
   const std::string text =
       R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0,1]},{"nodes":[1]}],"nodes":[{},{}]})";
-  const auto root = nlohmann::json::parse(turned(text, "a.gltf", ModelFormat::Gltf));
+  const auto root = parsed_json(turned(text, "a.gltf", ModelFormat::Gltf));
   std::vector<int> parents(root["nodes"].size(), 0);
   for (const auto& node : root["nodes"]) {
-    for (const auto& child : node.value("children", nlohmann::json::array())) {
+    for (const auto& child : node.value("children", OrderedJson::array())) {
       ++parents[child.get<std::size_t>()];
     }
   }

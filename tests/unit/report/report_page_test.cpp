@@ -4,17 +4,17 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "vantage/report/view_report.h"
 
+#include "core/json_text.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
 namespace vantage::test {
 namespace {
 
-using nlohmann::json;
+using json = OrderedJson;
 
 /// What the page of a result has in its data block.
 json page_data(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
@@ -23,7 +23,7 @@ json page_data(const Model& model, const ShapeAnalysis& shape, const ViewReport&
   const std::string page = report_html(model, shape, pictures, report, options);
   const std::string mark = R"(<script type="application/json" id="data">)";
   const std::size_t begin = page.find(mark) + mark.size();
-  return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  return parsed_json(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
 /// A result whose map is a few spikes: the scores of a coarse copy differ from the surface's.

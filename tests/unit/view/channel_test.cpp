@@ -6,11 +6,11 @@
 #include <utility>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "vantage/core/error.h"
 
 #include "core/random.h"
+#include "support/many_threads.h"
 #include "support/shapes.h"
 
 namespace vantage {
@@ -209,11 +209,11 @@ TEST_F(TriangleBehindPlates, IsInTheChannelThoughNoCornerIsSeen) {
 }
 
 TEST_F(TriangleBehindPlates, IsTheSameChannelForAnyThreads) {
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 3);
   const FaceVisibility faces(mesh, sides);
   eyes.resize(7, {Projection::Perspective, Vec3(20, 3, 1)});
   const ViewChannel one = channel_table(faces, mesh.triangles.size(), eyes, {.max_threads = 1});
-  const ViewChannel three = channel_table(faces, mesh.triangles.size(), eyes, {.max_threads = 3});
+  const ViewChannel three = test::with_many_threads(
+      [&] { return channel_table(faces, mesh.triangles.size(), eyes, {.max_threads = 3}); });
   for (std::size_t v = 0; v < eyes.size(); ++v) {
     ASSERT_EQ(one.views[v].size(), three.views[v].size());
     for (std::size_t k = 0; k < one.views[v].size(); ++k) {

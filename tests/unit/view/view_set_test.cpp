@@ -11,6 +11,7 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
+#include "support/many_threads.h"
 #include "support/shapes.h"
 
 namespace vantage {
@@ -139,11 +140,12 @@ TEST(SelectViews, IsTheSameForAnyNumberOfThreads) {
   const SeenShape scene(test::torus(1.0, 0.4, 24, 12));
   const ViewSetOptions options{.views = 5, .level = 3};
   const ViewSet one = scene.select(Vec3::UnitX(), options, {.max_threads = 1});
-  const ViewSet four = scene.select(Vec3::UnitX(), options, {.max_threads = 4});
-  ASSERT_EQ(one.views.size(), four.views.size());
+  const ViewSet three = test::with_many_threads(
+      [&] { return scene.select(Vec3::UnitX(), options, {.max_threads = 3}); });
+  ASSERT_EQ(one.views.size(), three.views.size());
   for (std::size_t i = 0; i < one.views.size(); ++i) {
-    EXPECT_EQ(one.views[i].direction, four.views[i].direction);
-    EXPECT_EQ(one.views[i].gain, four.views[i].gain);
+    EXPECT_EQ(one.views[i].direction, three.views[i].direction);
+    EXPECT_EQ(one.views[i].gain, three.views[i].gain);
   }
 }
 

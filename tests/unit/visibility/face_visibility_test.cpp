@@ -13,6 +13,7 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "support/many_threads.h"
 #include "support/shapes.h"
 
 namespace vantage {
@@ -430,7 +431,8 @@ TEST(FaceVisibility, IsTheSameForAnyNumberOfThreads) {
   const FaceVisibility visibility(test::torus(1.0, 0.4, 80, 40), {FaceSides::Front});
   const Viewpoint eye{Projection::Perspective, Vec3(3.0, 1.0, 1.0)};
   const auto one = visibility.seen_faces(eye, {.max_threads = 1});
-  const auto three = visibility.seen_faces(eye, {.max_threads = 3});
+  const auto three =
+      test::with_many_threads([&] { return visibility.seen_faces(eye, {.max_threads = 3}); });
   ASSERT_EQ(one.size(), three.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].face, three[i].face);
