@@ -12,17 +12,15 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "vantage/core/error.h"
+
+#include "support/many_threads.h"
 
 namespace vantage {
 namespace {
 
-/// More threads than this machine may have cores: arenas alone are clamped to them.
-tbb::global_control many_threads() {
-  return tbb::global_control(tbb::global_control::max_allowed_parallelism, 8);
-}
+using test::with_many_threads;
 
 /// Terms whose sum depends on the order of addition.
 double term(std::size_t i) {
@@ -45,58 +43,64 @@ double sum_with(int threads) {
 class ForThreads : public ::testing::TestWithParam<int> {};
 
 TEST_P(ForThreads, ChunksAreThoseOfOneThread) {
-  const auto raised = many_threads();
-  const double expected = sum_with(1);
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    EXPECT_EQ(sum_with(GetParam()), expected);
-  }
+  with_many_threads([] {
+    const double expected = sum_with(1);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      EXPECT_EQ(sum_with(GetParam()), expected);
+    }
+  });
 }
 
 TEST_P(ForThreads, ParallelForVisitsEveryIndexOnce) {
-  const auto raised = many_threads();
-  std::vector<std::atomic<int>> visits(1003);
-  parallel_for({.max_threads = GetParam()}, visits.size(), 10,
-               [&](std::size_t begin, std::size_t end) {
-                 EXPECT_LE(end - begin, 10U);
-                 for (std::size_t i = begin; i < end; ++i) {
-                   ++visits[i];
-                 }
-               });
-  for (const auto& count : visits) {
-    EXPECT_EQ(count.load(), 1);
-  }
+  with_many_threads([] {
+    std::vector<std::atomic<int>> visits(1003);
+    parallel_for({.max_threads = GetParam()}, visits.size(), 10,
+                 [&](std::size_t begin, std::size_t end) {
+                   EXPECT_LE(end - begin, 10U);
+                   for (std::size_t i = begin; i < end; ++i) {
+                     ++visits[i];
+                   }
+                 });
+    for (const auto& count : visits) {
+      EXPECT_EQ(count.load(), 1);
+    }
+  });
 }
 
 TEST_P(ForThreads, ParallelSortPutsAllInOrder) {
-  const auto raised = many_threads();
-  RunContext run;
-  run.max_threads = GetParam();
-  for (const std::size_t count : {0U, 1U, 99U, 100U, 101U, 350U, 1000U}) {
-    std::vector<int> numbers(count);
-    std::iota(numbers.begin(), numbers.end(), 0);
-    std::vector<int> shuffled = numbers;
-    std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(7));
-    parallel_sort(run, shuffled, 100, std::less<>());
-    EXPECT_EQ(shuffled, numbers);
-  }
+  with_many_threads([] {
+    RunContext run;
+    run.max_threads = GetParam();
+    for (const std::size_t count : {0U, 1U, 99U, 100U, 101U, 350U, 1000U}) {
+      std::vector<int> numbers(count);
+      std::iota(numbers.begin(), numbers.end(), 0);
+      std::vector<int> shuffled = numbers;
+      std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(7));
+      parallel_sort(run, shuffled, 100, std::less<>());
+      EXPECT_EQ(shuffled, numbers);
+    }
+  });
 }
 
 TEST_P(ForThreads, ExceptionsReachTheCaller) {
-  const auto raised = many_threads();
-  const auto fail = [](std::size_t begin, std::size_t) {
-    if (begin >= 500) {
-      throw std::runtime_error("from a chunk");
-    }
-  };
-  EXPECT_THROW(parallel_for({.max_threads = GetParam()}, 1000, 10, fail), std::runtime_error);
+  with_many_threads([] {
+    const auto fail = [](std::size_t begin, std::size_t) {
+      if (begin >= 500) {
+        throw std::runtime_error("from a chunk");
+      }
+    };
+    EXPECT_THROW(parallel_for({.max_threads = GetParam()}, 1000, 10, fail), std::runtime_error);
+  });
 }
 
 TEST_P(ForThreads, AStopRequestEndsTheLoop) {
-  const auto raised = many_threads();
-  std::stop_source source;
-  const RunContext run{.stop = source.get_token(), .max_threads = GetParam()};
-  EXPECT_THROW(parallel_for(run, 1000, 1, [&](std::size_t, std::size_t) { source.request_stop(); }),
-               Cancelled);
+  with_many_threads([] {
+    std::stop_source source;
+    const RunContext run{.stop = source.get_token(), .max_threads = GetParam()};
+    EXPECT_THROW(
+        parallel_for(run, 1000, 1, [&](std::size_t, std::size_t) { source.request_stop(); }),
+        Cancelled);
+  });
 }
 
 /// What parallel_items() called.
@@ -125,14 +129,15 @@ Calls calls_for(std::size_t count, int threads) {
 }
 
 TEST_P(ForThreads, EveryItemIsDoneOnceAndToldWhatItMayTake) {
-  const auto raised = many_threads();
-  for (const std::size_t count : {0U, 1U, 3U, 8U, 11U, 50U}) {
-    const Calls calls = calls_for(count, GetParam());
-    EXPECT_TRUE(calls.each_once && calls.told_right && calls.inner_loops_right) << count;
-    if (GetParam() > 0) {
-      EXPECT_LT(calls.together, static_cast<std::size_t>(GetParam())) << "only what is left over";
+  with_many_threads([] {
+    for (const std::size_t count : {0U, 1U, 3U, 8U, 11U, 50U}) {
+      const Calls calls = calls_for(count, GetParam());
+      EXPECT_TRUE(calls.each_once && calls.told_right && calls.inner_loops_right) << count;
+      if (GetParam() > 0) {
+        EXPECT_LT(calls.together, static_cast<std::size_t>(GetParam())) << "only what is left over";
+      }
     }
-  }
+  });
 }
 
 /// What a call throws: its words, or "nothing".
@@ -148,59 +153,63 @@ std::string thrown_by(const std::function<void()>& call) {
 }
 
 TEST_P(ForThreads, AnItemsExceptionReachesTheCaller) {
-  const auto raised = many_threads();
-  const auto fail = [](std::size_t i, const RunContext&) {
-    if (i == 6) {
-      throw std::runtime_error("the odd one");
-    }
-  };
-  EXPECT_EQ(thrown_by([&] { parallel_items({.max_threads = GetParam()}, 7, fail); }),
-            "the odd one");
+  with_many_threads([] {
+    const auto fail = [](std::size_t i, const RunContext&) {
+      if (i == 6) {
+        throw std::runtime_error("the odd one");
+      }
+    };
+    EXPECT_EQ(thrown_by([&] { parallel_items({.max_threads = GetParam()}, 7, fail); }),
+              "the odd one");
+  });
 }
 
 TEST_P(ForThreads, AFailedItemLeavesNoLoopOfAnotherHalfDone) {
-  const auto raised = many_threads();
-  std::atomic<int> half_done{0};
-  const auto work = [&](std::size_t i, const RunContext&) {
-    if (i == 5) {
-      throw std::runtime_error("one of them");
+  with_many_threads([] {
+    std::atomic<int> half_done{0};
+    const auto work = [&](std::size_t i, const RunContext&) {
+      if (i == 5) {
+        throw std::runtime_error("one of them");
+      }
+      // A loop inside, told nothing of threads: it ends in full or throws.
+      std::atomic<std::size_t> done{0};
+      parallel_for({}, 4000, 1, [&](std::size_t begin, std::size_t end) { done += end - begin; });
+      half_done += done.load() == 4000 ? 0 : 1;
+    };
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      EXPECT_EQ(thrown_by([&] { parallel_items({.max_threads = GetParam()}, 12, work); }),
+                "one of them");
     }
-    // A loop inside, told nothing of threads: it ends in full or throws.
-    std::atomic<std::size_t> done{0};
-    parallel_for({}, 4000, 1, [&](std::size_t begin, std::size_t end) { done += end - begin; });
-    half_done += done.load() == 4000 ? 0 : 1;
-  };
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    EXPECT_EQ(thrown_by([&] { parallel_items({.max_threads = GetParam()}, 12, work); }),
-              "one of them");
-  }
-  EXPECT_EQ(half_done.load(), 0);
+    EXPECT_EQ(half_done.load(), 0);
+  });
 }
 
 TEST_P(ForThreads, BothAreRunToTheirEnds) {
-  const auto raised = many_threads();
-  const RunContext run{.max_threads = GetParam()};
-  for (int repeat = 0; repeat < 50; ++repeat) {
-    double first = 0.0;
-    double second = 0.0;
-    run_both(
-        run, [&] { first = sum_with(GetParam()); }, [&] { second = sum_with(GetParam()); });
-    EXPECT_EQ(first, sum_with(1));
-    EXPECT_EQ(second, first);
-  }
+  with_many_threads([] {
+    const RunContext run{.max_threads = GetParam()};
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      double first = 0.0;
+      double second = 0.0;
+      run_both(
+          run, [&] { first = sum_with(GetParam()); }, [&] { second = sum_with(GetParam()); });
+      EXPECT_EQ(first, sum_with(1));
+      EXPECT_EQ(second, first);
+    }
+  });
 }
 
 TEST_P(ForThreads, OfTwoFailuresTheFirstOnesIsTold) {
-  const auto raised = many_threads();
-  const RunContext run{.max_threads = GetParam()};
-  const auto nothing = [] {};
-  const auto first = [] { throw std::runtime_error("first"); };
-  const auto second = [] { throw std::runtime_error("second"); };
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    EXPECT_EQ(thrown_by([&] { run_both(run, first, second); }), "first");
-    EXPECT_EQ(thrown_by([&] { run_both(run, nothing, second); }), "second");
-    EXPECT_EQ(thrown_by([&] { run_both(run, first, nothing); }), "first");
-  }
+  with_many_threads([] {
+    const RunContext run{.max_threads = GetParam()};
+    const auto nothing = [] {};
+    const auto first = [] { throw std::runtime_error("first"); };
+    const auto second = [] { throw std::runtime_error("second"); };
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      EXPECT_EQ(thrown_by([&] { run_both(run, first, second); }), "first");
+      EXPECT_EQ(thrown_by([&] { run_both(run, nothing, second); }), "second");
+      EXPECT_EQ(thrown_by([&] { run_both(run, first, nothing); }), "first");
+    }
+  });
 }
 
 TEST_P(ForThreads, AStopIsHeardBeforeEitherBegins) {
