@@ -67,6 +67,20 @@ TEST(ExtractSkeleton, OfATorusIsOneCycleNearItsCoreCircle) {
   EXPECT_LE(worst, kMinor);
 }
 
+TEST(ExtractSkeleton, HasNoLoopsAroundSingleTrianglesThatTheSurfaceLacks) {
+  TriMesh mesh = cylinder();
+  std::vector<Triangle> kept;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (f % 37 != 0) {
+      kept.push_back(mesh.triangles[f]);
+    }
+  }
+  mesh.triangles.swap(kept);
+  const CurveGraph graph = skeleton_of(mesh).graph;
+  EXPECT_EQ(cycle_count(graph), 0U);
+  EXPECT_EQ(ends_of(graph).size(), 2U);
+}
+
 TEST(ExtractSkeleton, OfATorusHasTheLengthOfItsCoreCircle) {
   EXPECT_NEAR(total_length(torus_skeleton().graph), 2.0 * std::numbers::pi,
               0.05 * 2.0 * std::numbers::pi);
