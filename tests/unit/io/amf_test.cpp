@@ -39,9 +39,9 @@ std::string colour(const std::string& r, const std::string& g, const std::string
   return "<color><r>" + r + "</r><g>" + g + "</g><b>" + b + "</b>" + more + "</color>";
 }
 
-const std::string kCorners =
+const std::string kAmfCorners =
     vertex("0", "0", "0") + vertex("2", "0", "0") + vertex("0", "2", "0") + vertex("0", "0", "2");
-const std::string kSides =
+const std::string kAmfSides =
     triangle(0, 2, 1) + triangle(0, 1, 3) + triangle(0, 3, 2) + triangle(1, 2, 3);
 
 std::string mesh(const std::string& vertices, const std::string& volumes) {
@@ -58,18 +58,18 @@ std::string volume(const std::string& content, const std::string& attributes = "
 
 /// A tetrahedron.
 std::string solid(const std::string& id) {
-  return object(id, mesh(kCorners, volume(kSides)));
+  return object(id, mesh(kAmfCorners, volume(kAmfSides)));
 }
 
 std::string amf(const std::string& content, const std::string& attributes = "") {
   return R"(<?xml version="1.0"?><amf)" + attributes + ">" + content + "</amf>";
 }
 
-Model read(const std::string& content) {
+Model read_amf(const std::string& content) {
   return parse_model(amf(content), "a.amf", {}, {.appearance = true});
 }
 
-std::string error_of(const std::string& content) {
+std::string amf_error(const std::string& content) {
   return error_text(amf(content), "a.amf");
 }
 
@@ -78,8 +78,8 @@ std::uint32_t material_of(const Model& model, std::size_t face) {
 }
 
 TEST(Amf, ReadsVerticesAndTrianglesInTheirOrder) {
-  const Model model = read(
-      object("0", R"(<metadata type="name"> one </metadata>)" + mesh(kCorners, volume(kSides))));
+  const Model model = read_amf(object(
+      "0", R"(<metadata type="name"> one </metadata>)" + mesh(kAmfCorners, volume(kAmfSides))));
   EXPECT_EQ(model.format, ModelFormat::Amf);
   EXPECT_EQ(format_name(model), "amf");
   ASSERT_EQ(model.mesh.positions.size(), 4U);
@@ -93,15 +93,15 @@ TEST(Amf, ReadsVerticesAndTrianglesInTheirOrder) {
 }
 
 TEST(Amf, ReadsEveryVolumeOfAMesh) {
-  const Model model = read(object(
-      "0", mesh(kCorners, volume(triangle(0, 2, 1)) + volume(triangle(0, 1, 3)) + "<region>" +
-                              triangle(0, 3, 2) + "</region>" + volume(triangle(1, 2, 3)))));
+  const Model model = read_amf(object(
+      "0", mesh(kAmfCorners, volume(triangle(0, 2, 1)) + volume(triangle(0, 1, 3)) + "<region>" +
+                                 triangle(0, 3, 2) + "</region>" + volume(triangle(1, 2, 3)))));
   EXPECT_EQ(model.mesh.triangles.size(), 4U);
   EXPECT_DOUBLE_EQ(6.0 * signed_volume(model.mesh), 8.0);
 }
 
 TEST(Amf, WithoutColoursHasNone) {
-  const Model model = read(solid("0"));
+  const Model model = read_amf(solid("0"));
   EXPECT_THAT(model.vertex_colours, IsEmpty());
   EXPECT_THAT(model.appearance.materials, IsEmpty());
 }
@@ -111,15 +111,15 @@ TEST(Amf, TakesTheColourThatIsNearestToATriangle) {
   const std::string corners = vertex("0", "0", "0", colour("0", "0", "1")) +
                               vertex("2", "0", "0", colour("0", "0", "1")) +
                               vertex("0", "2", "0", colour("0", "0", "1")) + vertex("0", "0", "2");
-  const Model model =
-      read(object("0", mesh(corners,
-                            volume(triangle(0, 2, 1) + triangle(0, 1, 3, colour("1", "0", "0"))) +
-                                volume(colour("0", "0.5", "0", "<a>0.25</a>") + triangle(0, 3, 2) +
-                                       triangle(0, 1, 2)) +
-                                volume(triangle(1, 2, 3))) +
-                           colour("0", "1", "1")) +
-           object("1", mesh(kCorners, volume(kSides, " materialid=\"m\""))) +
-           R"(<material id="m">)" + colour("1", "1", "0") + "</material>");
+  const Model model = read_amf(
+      object("0",
+             mesh(corners, volume(triangle(0, 2, 1) + triangle(0, 1, 3, colour("1", "0", "0"))) +
+                               volume(colour("0", "0.5", "0", "<a>0.25</a>") + triangle(0, 3, 2) +
+                                      triangle(0, 1, 2)) +
+                               volume(triangle(1, 2, 3))) +
+                 colour("0", "1", "1")) +
+      object("1", mesh(kAmfCorners, volume(kAmfSides, " materialid=\"m\""))) +
+      R"(<material id="m">)" + colour("1", "1", "0") + "</material>");
   EXPECT_EQ(material_of(model, 0), Appearance::kNone);  // of its vertices
   const std::vector<Material>& materials = model.appearance.materials;
   EXPECT_THAT(materials[material_of(model, 1)].colour, ElementsAre(1.0, 0.0, 0.0));
@@ -138,7 +138,7 @@ TEST(Amf, TakesTheColourThatIsNearestToATriangle) {
 
 TEST(Amf, PutsInstancesWhereAConstellationSays) {
   // Turned around x first, then y, then z, and shifted; the object stands behind what shows it.
-  const Model model = read(
+  const Model model = read_amf(
       R"(<constellation id="c"><instance objectid="1"><deltax>10</deltax><deltay>20</deltay>)"
       R"(<deltaz>30</deltaz><rx>90</rx><rz>90</rz></instance><instance objectid="1"/></constellation>)" +
       solid("1") + solid("2"));
@@ -151,7 +151,7 @@ TEST(Amf, PutsInstancesWhereAConstellationSays) {
 }
 
 TEST(Amf, ShowsConstellationsInEachOther) {
-  const Model model = read(
+  const Model model = read_amf(
       solid("1") +
       R"(<constellation id="2"><instance objectid="1"><deltax>1</deltax></instance></constellation>)"
       R"(<constellation id="3"><instance objectid="2"><deltax>4</deltax></instance></constellation>)");
@@ -165,31 +165,31 @@ TEST(Amf, LeavesOutTexturesOfEitherForm) {
       R"(<map gtexid="2" btexid="3" rtexid="1"><u1>0</u1><u2>1</u2><u3>1</u3><v1>7</v1><v2>9</v2><v3>8</v3></map>)";
   const std::string map = R"(<texmap rtexid="1"><utex1>0</utex1></texmap>)";
   for (const std::string& places : {old_map, map}) {
-    const Model model =
-        read(object("0", mesh(kCorners, volume(triangle(0, 2, 1, places) + triangle(0, 1, 3)))) +
-             R"(<texture id="1" width="1" height="1" depth="1" type="grayscale">/w==</texture>)");
+    const Model model = read_amf(
+        object("0", mesh(kAmfCorners, volume(triangle(0, 2, 1, places) + triangle(0, 1, 3)))) +
+        R"(<texture id="1" width="1" height="1" depth="1" type="grayscale">/w==</texture>)");
     EXPECT_THAT(model.mesh.triangles[0], ElementsAre(0, 2, 1));
     EXPECT_THAT(model.notes,
                 Contains(HasSubstr("textures, and colours that are formulas, left out")));
   }
   const Model formula =
-      read(object("0", colour("x/10", "0", "0") + mesh(kCorners, volume(kSides))));
+      read_amf(object("0", colour("x/10", "0", "0") + mesh(kAmfCorners, volume(kAmfSides))));
   EXPECT_THAT(formula.notes,
               Contains(HasSubstr("textures, and colours that are formulas, left out")));
   EXPECT_THAT(formula.appearance.materials, IsEmpty());
 }
 
 TEST(Amf, NotesWhatItDoesNotBend) {
-  const Model curved = read(object(
-      "0", mesh(kCorners + "<edge><v1>0</v1><dx1>1</dx1><v2>1</v2></edge>", volume(kSides))));
+  const Model curved = read_amf(object(
+      "0", mesh(kAmfCorners + "<edge><v1>0</v1><dx1>1</dx1><v2>1</v2></edge>", volume(kAmfSides))));
   EXPECT_EQ(curved.mesh.positions.size(), 4U);
   EXPECT_THAT(curved.notes, ElementsAre(HasSubstr("edges and normals left out")));
   const std::string instance =
       R"(<constellation id="2"><instance objectid="1"><scale>1</scale><scalex>)";
   const std::string end = "</scalex></instance></constellation>";
-  EXPECT_THAT(read(solid("1") + instance + "2" + end).notes,
+  EXPECT_THAT(read_amf(solid("1") + instance + "2" + end).notes,
               ElementsAre(HasSubstr("scales and mirrors of instances left out")));
-  EXPECT_THAT(read(solid("1") + instance + "1" + end).notes, IsEmpty());
+  EXPECT_THAT(read_amf(solid("1") + instance + "1" + end).notes, IsEmpty());
 }
 
 TEST(Amf, NotesTheUnitAndKeepsCoordinates) {
@@ -199,24 +199,24 @@ TEST(Amf, NotesTheUnitAndKeepsCoordinates) {
 }
 
 TEST(Amf, KeepsDigitsThatAFloatDoesNotHold) {
-  EXPECT_FALSE(read(solid("1")).double_precision);
+  EXPECT_FALSE(read_amf(solid("1")).double_precision);
   const std::string exact =
       vertex("0.12345678901234", "0", "0") + vertex("1", "0", "0") + vertex("0", "1", "0");
-  const Model model = read(object("1", mesh(exact, volume(triangle(0, 1, 2)))));
+  const Model model = read_amf(object("1", mesh(exact, volume(triangle(0, 1, 2)))));
   EXPECT_TRUE(model.double_precision);
   EXPECT_EQ(model.mesh.positions[0].x(), 0.12345678901234);
 }
 
 TEST(Amf, CountsVerticesOfEachMeshAnew) {
-  const Model model =
-      read(object("1", mesh(kCorners, volume(kSides)) + mesh(kCorners, volume(kSides))));
+  const Model model = read_amf(
+      object("1", mesh(kAmfCorners, volume(kAmfSides)) + mesh(kAmfCorners, volume(kAmfSides))));
   EXPECT_THAT(model.mesh.triangles[4], ElementsAre(4, 6, 5));
 }
 
 TEST(Amf, PassesOverBlanksAndCommentsAroundNumbers) {
   const std::string spread = vertex("\n  0\r\n", "\t0 ", "<!-- of 0 -->0") +
                              vertex("1<!-- 2 -->.5", "0", "0") + vertex("0", "1", "0");
-  const Model model = read(object("1", mesh(spread, volume(triangle(0, 1, 2)))));
+  const Model model = read_amf(object("1", mesh(spread, volume(triangle(0, 1, 2)))));
   EXPECT_EQ(model.mesh.positions[1].x(), 1.5);
 }
 
@@ -249,21 +249,21 @@ TEST(Amf, IsFoundByItsFirstElement) {
 }
 
 TEST(AmfError, SaysWhatIsWrongAndWhere) {
-  EXPECT_THAT(error_of(object("1", mesh("<vertex/>", ""))), HasSubstr("line 1: a vertex has not"));
-  EXPECT_THAT(error_of(object("1", mesh(vertex("1,5", "0", "0"), ""))), HasSubstr("line 1"));
-  EXPECT_THAT(error_of(object("1", mesh(vertex("1e99", "0", "0"), ""))), HasSubstr("beyond 1e60"));
-  EXPECT_THAT(error_of(object("1", mesh(kCorners, volume(triangle(0, 1, 4))))),
+  EXPECT_THAT(amf_error(object("1", mesh("<vertex/>", ""))), HasSubstr("line 1: a vertex has not"));
+  EXPECT_THAT(amf_error(object("1", mesh(vertex("1,5", "0", "0"), ""))), HasSubstr("line 1"));
+  EXPECT_THAT(amf_error(object("1", mesh(vertex("1e99", "0", "0"), ""))), HasSubstr("beyond 1e60"));
+  EXPECT_THAT(amf_error(object("1", mesh(kAmfCorners, volume(triangle(0, 1, 4))))),
               HasSubstr("a triangle's v3 names none of the 4 vertices before it"));
-  EXPECT_THAT(error_of(object("1", mesh(kCorners, volume("<triangle><v1>0</v1></triangle>")))),
+  EXPECT_THAT(amf_error(object("1", mesh(kAmfCorners, volume("<triangle><v1>0</v1></triangle>")))),
               HasSubstr("a triangle's v2"));
-  EXPECT_THAT(error_of(solid("1") + solid("1")), HasSubstr("two objects have the id '1'"));
-  EXPECT_THAT(error_of(R"(<constellation id="2"><instance objectid="7"/></constellation>)"),
+  EXPECT_THAT(amf_error(solid("1") + solid("1")), HasSubstr("two objects have the id '1'"));
+  EXPECT_THAT(amf_error(R"(<constellation id="2"><instance objectid="7"/></constellation>)"),
               HasSubstr("names object '7', which does not exist"));
-  EXPECT_THAT(error_of(R"(<constellation id="2"><instance objectid="2"/></constellation>)"),
+  EXPECT_THAT(amf_error(R"(<constellation id="2"><instance objectid="2"/></constellation>)"),
               HasSubstr("is a component of itself"));
-  EXPECT_THAT(error_of(""), HasSubstr("holds no triangles"));
-  EXPECT_THAT(error_of(object("1", mesh(kCorners, ""))), HasSubstr("holds no triangles"));
-  EXPECT_THAT(error_of(volume(kSides)), HasSubstr("belongs to no object"));
+  EXPECT_THAT(amf_error(""), HasSubstr("holds no triangles"));
+  EXPECT_THAT(amf_error(object("1", mesh(kAmfCorners, ""))), HasSubstr("holds no triangles"));
+  EXPECT_THAT(amf_error(volume(kAmfSides)), HasSubstr("belongs to no object"));
   EXPECT_THAT(error_text("<amf><object>", "a.amf"), HasSubstr("is not well-formed XML"));
   EXPECT_THAT(error_text("<nothing/>", "a.amf"), HasSubstr("not that of an AMF"));
 }
@@ -281,15 +281,17 @@ TEST(AmfError, RefusesInstancesThatDoubleAtEveryLevel) {
     content += "<constellation id=\"" + std::to_string(level) + "\">";
     content.append(below).append(below).append("</constellation>");
   }
-  EXPECT_THAT(error_of(content), HasSubstr("out of proportion"));
+  EXPECT_THAT(amf_error(content), HasSubstr("out of proportion"));
 }
 
 TEST(Amf, SurvivesElementsInWrongPlaces) {
   const std::string twice = volume(triangle(0, 2, 1) + volume("") + triangle(0, 1, 3));
-  EXPECT_EQ(read(object("1", mesh(kCorners, volume(kSides) + twice))).mesh.triangles.size(), 6U);
-  EXPECT_EQ(read(object("1", mesh(kCorners, kSides))).mesh.triangles.size(), 4U);
-  EXPECT_THAT(error_of(object("1", volume(object("2", "")))), HasSubstr("belongs to no object"));
-  EXPECT_EQ(read(colour("1", "0", "0") + solid("1")).appearance.materials.size(), 0U);
+  EXPECT_EQ(
+      read_amf(object("1", mesh(kAmfCorners, volume(kAmfSides) + twice))).mesh.triangles.size(),
+      6U);
+  EXPECT_EQ(read_amf(object("1", mesh(kAmfCorners, kAmfSides))).mesh.triangles.size(), 4U);
+  EXPECT_THAT(amf_error(object("1", volume(object("2", "")))), HasSubstr("belongs to no object"));
+  EXPECT_EQ(read_amf(colour("1", "0", "0") + solid("1")).appearance.materials.size(), 0U);
 }
 
 }  // namespace
