@@ -2,9 +2,9 @@
 #include "contraction/missing_triangles.h"
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <span>
+#include <tuple>
 
 #include "vantage/mesh/topology.h"
 
@@ -24,8 +24,6 @@ struct HoleSide {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
   std::uint32_t face = 0;  // on its other side
-
-  auto operator<=>(const HoleSide&) const = default;
 };
 
 std::vector<HoleSide> hole_sides(const TriMesh& mesh) {
@@ -38,15 +36,20 @@ std::vector<HoleSide> hole_sides(const TriMesh& mesh) {
       sides.push_back({is_against ? b : a, is_against ? a : b, faces[0]});
     }
   }
-  std::sort(sides.begin(), sides.end());
+  std::sort(sides.begin(), sides.end(), [](const HoleSide& a, const HoleSide& b) {
+    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+  });
   return sides;
 }
 
 /// The sides that begin at a vertex; none where there are so many that it is no part of a sound surface.
 std::span<const HoleSide> few_sides_from(std::span<const HoleSide> sides, std::uint32_t vertex) {
-  const auto found = std::ranges::equal_range(sides, vertex, {}, &HoleSide::from);
-  return found.size() > kMostSides ? std::span<const HoleSide>()
-                                   : std::span(found.begin(), found.end());
+  const auto is_before = [&](const HoleSide& side) { return side.from < vertex; };
+  const auto is_there = [&](const HoleSide& side) { return side.from == vertex; };
+  const auto first = std::partition_point(sides.begin(), sides.end(), is_before);
+  const auto last = std::partition_point(first, sides.end(), is_there);
+  const auto count = static_cast<std::size_t>(last - first);
+  return count > kMostSides ? std::span<const HoleSide>() : std::span(first, count);
 }
 
 /// For each component how far its farthest vertex is from the mean of all.

@@ -79,6 +79,13 @@ bool may_be_stl(std::string_view bytes, ModelFormat said) {
   return said == ModelFormat::Stl && bytes.substr(0, kLook).find('\0') != std::string_view::npos;
 }
 
+/// Whether the bytes are a ZIP archive or XML in UTF-16, which alone do not tell the format that the name says.
+bool is_packed_or_wide(ModelFormat said, std::string_view bytes) {
+  const bool is_amf = said == ModelFormat::Amf;
+  return ((is_amf || said == ModelFormat::Threemf) && bytes.starts_with("PK")) ||
+         (is_amf && (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")));
+}
+
 }  // namespace
 
 std::span<const std::string_view> model_endings() {
@@ -122,12 +129,8 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name, bool
                                       std::string(format_name(*found)) + " and were read as such"
                                 : ""};
   }
-  if ((said == ModelFormat::Threemf || said == ModelFormat::Amf) && bytes.starts_with("PK")) {
+  if (said && is_packed_or_wide(*said, bytes)) {
     return {*said, ""};
-  }
-  if (said == ModelFormat::Amf &&
-      (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))) {
-    return {*said, ""};  // XML may be UTF-16
   }
   if (const ImportFormat* const found = check_foreign_bytes(bytes, extension, name, may_import)) {
     const ImportFormat* const named = import_format(extension);

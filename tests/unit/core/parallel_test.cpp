@@ -83,24 +83,20 @@ TEST_P(ForThreads, ParallelSortPutsAllInOrder) {
 }
 
 TEST_P(ForThreads, ExceptionsReachTheCaller) {
-  with_many_threads([] {
-    const auto fail = [](std::size_t begin, std::size_t) {
-      if (begin >= 500) {
-        throw std::runtime_error("from a chunk");
-      }
-    };
-    EXPECT_THROW(parallel_for({.max_threads = GetParam()}, 1000, 10, fail), std::runtime_error);
-  });
+  const auto fail = [](std::size_t begin, std::size_t) {
+    if (begin >= 500) {
+      throw std::runtime_error("from a chunk");
+    }
+  };
+  const auto run = [&] { parallel_for({.max_threads = GetParam()}, 1000, 10, fail); };
+  EXPECT_THROW(with_many_threads(run), std::runtime_error);
 }
 
 TEST_P(ForThreads, AStopRequestEndsTheLoop) {
-  with_many_threads([] {
-    std::stop_source source;
-    const RunContext run{.stop = source.get_token(), .max_threads = GetParam()};
-    EXPECT_THROW(
-        parallel_for(run, 1000, 1, [&](std::size_t, std::size_t) { source.request_stop(); }),
-        Cancelled);
-  });
+  std::stop_source source;
+  const RunContext run{.stop = source.get_token(), .max_threads = GetParam()};
+  const auto stop = [&](std::size_t, std::size_t) { source.request_stop(); };
+  EXPECT_THROW(with_many_threads([&] { parallel_for(run, 1000, 1, stop); }), Cancelled);
 }
 
 /// What parallel_items() called.
@@ -199,17 +195,18 @@ TEST_P(ForThreads, BothAreRunToTheirEnds) {
 }
 
 TEST_P(ForThreads, OfTwoFailuresTheFirstOnesIsTold) {
-  with_many_threads([] {
-    const RunContext run{.max_threads = GetParam()};
-    const auto nothing = [] {};
-    const auto first = [] { throw std::runtime_error("first"); };
-    const auto second = [] { throw std::runtime_error("second"); };
-    for (int repeat = 0; repeat < 20; ++repeat) {
-      EXPECT_EQ(thrown_by([&] { run_both(run, first, second); }), "first");
-      EXPECT_EQ(thrown_by([&] { run_both(run, nothing, second); }), "second");
-      EXPECT_EQ(thrown_by([&] { run_both(run, first, nothing); }), "first");
-    }
-  });
+  const auto nothing = [] {};
+  const auto first = [] { throw std::runtime_error("first"); };
+  const auto second = [] { throw std::runtime_error("second"); };
+  const auto told = [](const auto& a, const auto& b) {
+    const auto both = [&] { run_both({.max_threads = GetParam()}, a, b); };
+    return thrown_by([&] { with_many_threads(both); });
+  };
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    EXPECT_EQ(told(first, second), "first");
+    EXPECT_EQ(told(nothing, second), "second");
+    EXPECT_EQ(told(first, nothing), "first");
+  }
 }
 
 TEST_P(ForThreads, AStopIsHeardBeforeEitherBegins) {
