@@ -111,6 +111,16 @@ TEST(GltfAppearance, KnowsLightOfItsOwn) {
   EXPECT_THAT(material(R"("emissiveTexture":{"index":0})").emission, ElementsAre(0.0, 0.0, 0.0));
 }
 
+TEST(GltfAppearance, TakesTheCoordinatesOfAnEmissionWhereTheColourHasNoPicture) {
+  const auto last_uv = [](const char* set) {
+    const std::string material = R"({"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0)";
+    return parse_model(gltf(material + set + "}}", green_part()), "a.gltf", {}, kAll)
+        .appearance.uvs.at(3);
+  };
+  EXPECT_THAT(last_uv(""), ElementsAre(1.0F, 0.5F));
+  EXPECT_THAT(last_uv(R"(,"texCoord":1)"), ElementsAre(0.0F, 0.0F));  // which the primitive has not
+}
+
 TEST(GltfAppearance, LeavesOutLightWhosePictureIsMissingOrLiesOtherwiseThanTheColours) {
   const std::string factor = R"({"emissiveFactor":[1,1,1],"emissiveTexture":)";
   const std::string colour = R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
