@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// Triangles that close the holes of three edges in a surface, wound as the faces around them. A skeleton cannot
-/// tell such a hole from a handle. Holes with an edge of a tenth of their component or more stay open: that is how
+/// Triangles that close the holes of three edges in a surface, wound as the faces around them; of no area where an
+/// edge meets two, which leaves a crack. A skeleton cannot tell such a hole from a handle. Holes with an edge of a tenth of their component or more stay open: that is how
 /// a tent or a box without its lid is made.
 std::vector<Triangle> missing_triangles(const TriMesh& mesh);
 

@@ -6,16 +6,14 @@ import io
 import json
 import os
 import pathlib
-import shlex
 import shutil
 import sqlite3
-import subprocess
 import tarfile
 import unittest
 import unittest.mock
 import zipfile
 
-from program import MODELS, PROGRAM, ProgramTest
+from program import MODELS, ProgramTest
 from program import contract_quickly as setUpModule
 from shapes import box
 
@@ -253,18 +251,6 @@ class Results(BatchTest):
             self.assertRegex(self.vantage(*batch).err, r"^0 of 1 models\n(.*\n)*1 of 1 models, \d+")
             self.assertEqual(self.vantage(*batch, "-q").err, "")
         self.assertEqual(self.vantage(*batch).err, "")
-
-    def test_a_manifest_that_can_be_read_once_is_read_once_on_a_terminal_too(self):
-        paths = [f"{self.dir}/{'n' * 150}_{i}.off" for i in range(700)]  # more than a pipe and a buffer hold
-        os.mkfifo(self.dir / "list")
-        command = shlex.join([PROGRAM, "batch", "--manifest", "list", "-o", "out", *FAST])
-        with subprocess.Popen(["script", "-qec", command, "/dev/null"], cwd=self.dir, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.DEVNULL) as batch:
-            self.addCleanup(batch.kill)
-            with open(self.dir / "list", "w", encoding="utf-8") as manifest:
-                manifest.write("\n".join(paths))
-            self.assertEqual(batch.wait(timeout=100), 4)
-        self.assertEqual(len(self.rows()), len(paths))
 
     def test_a_gradient_search_takes_the_seed(self):
         self.write("a.off", box(1))

@@ -1,8 +1,12 @@
 """Lists of models and tables of results: what is wrong with them is said once, and where."""
 
 import json
+import os
+import shlex
+import subprocess
 import unittest
 
+from program import PROGRAM
 from program import contract_quickly as setUpModule
 from shapes import box
 from test_batch import FAST, BatchTest
@@ -29,6 +33,18 @@ class Lists(BatchTest):
             self.assertIn(path, said)
         self.assertTrue(rows["k2"]["error"].startswith("k2 ("), rows["k2"])
         self.assertTrue(rows["m/worse.off"]["error"].startswith("m/worse.off, line"), rows["m/worse.off"])
+
+    def test_a_manifest_that_can_be_read_once_is_read_once_on_a_terminal_too(self):
+        paths = [f"{self.dir}/{'n' * 150}_{i}.off" for i in range(700)]  # more than a pipe and a buffer hold
+        os.mkfifo(self.dir / "list")
+        command = shlex.join([PROGRAM, "batch", "--manifest", "list", "-o", "out", *FAST])
+        with subprocess.Popen(["script", "-qec", command, "/dev/null"], cwd=self.dir, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.DEVNULL) as batch:
+            self.addCleanup(batch.kill)
+            with open(self.dir / "list", "w", encoding="utf-8") as manifest:
+                manifest.write("\n".join(paths))
+            self.assertEqual(batch.wait(timeout=100), 4)
+        self.assertEqual(len(self.rows()), len(paths))
 
     def test_rows_of_one_key_are_counted_apart(self):
         self.write("a.off", box(1))

@@ -74,6 +74,23 @@ TEST(MissingTriangles, AreNotTheBacksOfFaces) {
   EXPECT_TRUE(missing_triangles(mesh).empty());
 }
 
+TEST(MissingTriangles, CloseTheCrackWhereAnEdgeMeetsTwo) {
+  TriMesh mesh = test::sphere(3);
+  const Triangle cut = mesh.triangles.front();
+  const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.push_back(0.5 * (mesh.positions[cut[0]] + mesh.positions[cut[1]]));
+  mesh.triangles.front() = {cut[0], middle, cut[2]};
+  mesh.triangles.push_back({middle, cut[1], cut[2]});
+  EXPECT_EQ(in_order(missing_triangles(mesh)),
+            in_order({{cut[1], middle, cut[0]}}));  // before the face beyond the edge
+  const ContractionHistory history = contract(mesh);
+  for (const auto& level : history.levels) {
+    EXPECT_TRUE(
+        std::all_of(level.begin(), level.end(), [](const Vec3& p) { return p.allFinite(); }));
+  }
+  EXPECT_LT(history.shrinkage.back(), 0.1);
+}
+
 TEST(MissingTriangles, AreNotThoseThatATentLacks) {
   TriMesh tent = test::sphere(1);
   tent.triangles.pop_back();

@@ -146,6 +146,19 @@ TEST(SurfaceMaterials, EmissionIsAddedToWhatIsReflected) {
   EXPECT_LT(black, 0.01);
 }
 
+TEST(SurfaceMaterials, EmissionEndsAsSmoothlyAsColoursDo) {
+  Square square({kOn, kOn, kOn, kOn, 0, 0, 0, kOn, kOn, kOn, kOn, kOn, 0, 0, 0, kOn});
+  square.appearance.materials[0] = {
+      .colour = {0.0, 0.0, 0.0}, .emission = {0.5, 0.0, 0.0}, .emission_texture = 0};
+  RenderOptions options = small();
+  options.width = 31;  // the border is in the middle of a pixel
+  options.height = 31;
+  options.samples = 16;
+  const Image image = picture(square, options);
+  EXPECT_GT(image.pixel(15, 15)[0], image.pixel(20, 15)[0] + 20);
+  EXPECT_LT(image.pixel(15, 15)[0], image.pixel(10, 15)[0] - 20);
+}
+
 TEST(SurfaceMaterials, AWallIsSeenThroughFortyPanesOfThinGlass) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.materials[0].alpha = AlphaMode::Blend;
