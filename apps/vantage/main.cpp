@@ -32,9 +32,8 @@ constexpr const char* kAbout =
     "Finds the view of a 3D model that tells most about its shape, and the one that tells least.";
 
 constexpr const char* kFooter =
-    "Reads OBJ, OFF, PLY, STL, glTF, GLB, 3MF and AMF, and point clouds (XYZ, PTS, PWN, PCD);\n"
-    "- reads standard input. With the package vantage-import also STEP, IGES, FBX, COLLADA, 3DS, "
-    "X, BLEND "
+    "Reads OBJ, OFF, PLY, STL, glTF, GLB, 3MF, AMF and point clouds (XYZ, PTS, PWN, PCD); - reads\n"
+    "standard input. With the package vantage-import also STEP, IGES, FBX, COLLADA, 3DS, X, BLEND "
     "and more.\n"
     "\n"
     "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 input unreadable; 4 some models of a batch "
