@@ -29,7 +29,7 @@ def shared(first, second):
     return (first & second).sum() / (first | second).sum()
 
 
-@unittest.skipIf(BLENDER is None, "SKIPPED: blender is not installed")
+@unittest.skipIf(BLENDER is None, "NOTHING WAS TESTED: blender is not installed")
 class Addon(unittest.TestCase):
     """One run of Blender; each test looks at a part of what it left."""
 

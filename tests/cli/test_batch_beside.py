@@ -63,7 +63,7 @@ class FilesBeside(BatchTest):
             names = self.colours(name, f"mtllib m.mtl\nusemtl m\n{TRIANGLE}f 1/1 2/1 3/1\n", library)
             self.check_colours(names, f"out{i}")
 
-    @unittest.skipUnless((pathlib.Path(PROGRAM).parent / "vantage-import").exists(), "vantage-import is not there")
+    @unittest.skipUnless((pathlib.Path(PROGRAM).parent / "vantage-import").exists(), "NOTHING WAS TESTED: vantage-import is not there")
     def test_pictures_of_imported_models_belong_to_their_content(self):
         self.check_colours(self.colours("m.dae", COLLADA), "out")
         (self.dir / "red/t.png").unlink()

@@ -123,7 +123,7 @@ class OneModel(FaultTest):
         try:
             subprocess.run([PROGRAM, "--version"], user=user, capture_output=True, check=True)
         except (PermissionError, subprocess.CalledProcessError):
-            self.skipTest("LOUD: the user 'nobody' cannot run the program here")
+            self.skipTest("NOTHING WAS TESTED: the user 'nobody' cannot run the program here")
         rows = self.run_with(".", exit_code=4, user=user)
         self.assert_only_failure(rows, "./locked", "input", "cannot be listed")
 
@@ -173,7 +173,7 @@ class WholeBatch(FaultTest):
                     return int(worker)
             time.sleep(0.01)
         self.assertFalse(is_told, "no worker hangs")
-        self.skipTest("LOUD: this kernel does not tell what a process waits for")
+        self.skipTest("NOTHING WAS TESTED: this kernel does not tell what a process waits for")
 
     def test_signals_stop_it_cleanly_and_it_goes_on_where_it_was(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 75)):
@@ -244,7 +244,7 @@ class WholeBatch(FaultTest):
         mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=600k", "tmpfs", str(disk)],
                                  capture_output=True, check=False)
         if mounted.returncode != 0:
-            self.skipTest("LOUD: no small disk can be mounted here: " + mounted.stderr.decode())
+            self.skipTest("NOTHING WAS TESTED: no small disk can be mounted here: " + mounted.stderr.decode())
         self.addCleanup(subprocess.run, ["umount", str(disk)], check=True)
         names = []
         for i in range(60):

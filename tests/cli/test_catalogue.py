@@ -43,7 +43,7 @@ CUPBOARD = ("mtllib cupboard.mtl\n" + block((-1, 0, -0.5), (1, 2.4, 0.5), "wood"
             + block((0.2, 1.2, 0.52), (0.8, 2.1, 0.54), "wood", 25) + block((0.2, 1.2, -0.54), (0.8, 2.1, -0.52), "wood", 33))
 
 
-@unittest.skipUnless(can_run(), "python3-numpy or python3-pil is not installed")
+@unittest.skipUnless(can_run(), "NOTHING WAS TESTED: python3-numpy or python3-pil is not installed")
 class Catalogue(ProgramTest):
     def library(self, views, turn="1 0 0 0 1 0 0 0 1"):
         """A library with one cupboard a view, each with the icon that vantage draws from there."""

@@ -17,8 +17,8 @@ WORKFLOW = MODELS.parent / "examples/github-actions/thumbnails.yml"
 NO_COMMIT = "0" * 40
 
 
-@unittest.skipIf(importlib.util.find_spec("yaml") is None, "SKIPPED: python3-yaml is not installed")
-@unittest.skipIf(shutil.which("git") is None or shutil.which("curl") is None, "SKIPPED: git or curl is not installed")
+@unittest.skipIf(importlib.util.find_spec("yaml") is None, "NOTHING WAS TESTED: python3-yaml is not installed")
+@unittest.skipIf(shutil.which("git") is None or shutil.which("curl") is None, "NOTHING WAS TESTED: git or curl is not installed")
 class Thumbnails(ProgramTest):
 
     def setUp(self):

@@ -373,7 +373,7 @@ class Writing(ProgramTest):
         mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=40k", "tmpfs", str(disk)], capture_output=True,
                                  check=False)
         if mounted.returncode != 0:
-            self.skipTest("LOUD: no small disk can be mounted here: " + mounted.stderr.decode())
+            self.skipTest("NOTHING WAS TESTED: no small disk can be mounted here: " + mounted.stderr.decode())
         self.addCleanup(subprocess.run, ["umount", str(disk)], check=True)
         # What may be there afterwards: outputs that were whole before another one was begun.
         for command, earlier in ((("view", "-o", "disk/out", "--size", "64x48", *FAST), []),

@@ -183,14 +183,14 @@ class Words(ProgramTest):
         for shell, flag in (("zsh", "-n"), ("fish", "--no-execute")):
             with self.subTest(shell):
                 if shutil.which(shell) is None:
-                    self.skipTest(f"{shell} is not installed")
+                    self.skipTest(f"NOTHING WAS TESTED: {shell} is not installed")
                 script = self.write(f"completion.{shell}", self.vantage("completion", shell).out)
                 done = subprocess.run([shell, flag, script], capture_output=True, check=False, text=True)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_fish_completes_options_and_values(self):
         if shutil.which("fish") is None:
-            self.skipTest("fish is not installed")
+            self.skipTest("NOTHING WAS TESTED: fish is not installed")
         script = self.write("vantage.fish", self.vantage("completion", "fish").out)
         for line, offered in (("vantage thumb --crea", "--crease"), ("vantage view --weight ar", "area"),
                               ("vantage comp", "compare"), ("vantage completion ", "zsh")):
@@ -213,7 +213,7 @@ class Words(ProgramTest):
 
     def test_manual_pages_are_well_formed(self):
         if shutil.which("groff") is None:
-            self.skipTest("groff is not installed")
+            self.skipTest("NOTHING WAS TESTED: groff is not installed")
         (self.dir / "man").mkdir()
         self.vantage("manual", "man")
         for page in sorted((self.dir / "man").iterdir()):

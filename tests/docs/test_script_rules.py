@@ -130,7 +130,7 @@ class Scripts(unittest.TestCase):
                     self.assertEqual(done.returncode, 1)
                     self.assertRegex(done.stderr, rf"^\S+/{folder}: holds no \w+ to check\n$")
 
-    @unittest.skipUnless(HAS_NUMPY, "numpy is not installed")
+    @unittest.skipUnless(HAS_NUMPY, "NOTHING WAS TESTED: numpy is not installed")
     def test_an_identity_that_is_no_number_is_not_held(self):
         import check_measures
         import numpy
@@ -179,7 +179,7 @@ class Scripts(unittest.TestCase):
         self.assertEqual(report.returncode, 1)
         self.assertIn("0 failed, 1 reports", report.stdout)
 
-    @unittest.skipUnless(HAS_NUMPY, "numpy is not installed")
+    @unittest.skipUnless(HAS_NUMPY, "NOTHING WAS TESTED: numpy is not installed")
     def test_what_is_measured_for_a_fit_is_kept_for_its_program_and_model_and_failures_are_not(self):
         import fit_choices
         program, model = self.dir / "vantage", self.dir / "chair.obj"
@@ -200,7 +200,7 @@ class Scripts(unittest.TestCase):
         (self.dir / "chair.json").write_text('{"failed": "timed out"}')  # of an older form
         self.assertEqual(measure(works, "a")["total"], 1)
 
-    @unittest.skipUnless(HAS_NUMPY, "numpy is not installed")
+    @unittest.skipUnless(HAS_NUMPY, "NOTHING WAS TESTED: numpy is not installed")
     def test_the_habit_weighs_less_until_that_costs_more_than_a_standard_error(self):
         import fit_choices
         import numpy as np

@@ -23,7 +23,7 @@ import vantage
 
 def without(*modules):
     missing = [name for name in modules if importlib.util.find_spec(name) is None]
-    return pytest.mark.skipif(bool(missing), reason=f"SKIPPED: {', '.join(missing)} is not installed")
+    return pytest.mark.skipif(bool(missing), reason=f"NOTHING WAS TESTED: {', '.join(missing)} is not installed")
 
 
 needs_vtk = without("vtkmodules")
@@ -135,7 +135,7 @@ def test_every_function_takes_them():
 
 
 @pytest.mark.parametrize("library", [pytest.param("open3d", marks=needs_open3d), pytest.param("vtk", marks=needs_vtk)])
-@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="SKIPPED: xvfb-run is not installed")
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="NOTHING WAS TESTED: xvfb-run is not installed")
 def test_silhouettes_in_the_other_library_are_ours(library, models):
     script = pathlib.Path(__file__).with_name("silhouettes.py")
     done = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, script, library,

@@ -41,7 +41,7 @@ def test_stubs_are_those_that_the_table_makes():
     assert made.stdout == (ROOT / "python/vantage/functions.pyi").read_text()
 
 
-@pytest.mark.skipif(not has("mypy"), reason="SKIPPED: mypy is not installed")
+@pytest.mark.skipif(not has("mypy"), reason="NOTHING WAS TESTED: mypy is not installed")
 def test_type_checker_takes_a_users_program_and_refuses_a_wrong_one(tmp_path):
     wrong = ["vantage.kssm(V, F, fov=3)", 'vantage.kssm(V, F, weight="areas")',
              "vantage.kssm(V, F, levels=1)"]
@@ -55,7 +55,7 @@ def test_type_checker_takes_a_users_program_and_refuses_a_wrong_one(tmp_path):
     assert sorted(set(lines)) == [first, first + 1, first + 2], done.stdout
 
 
-@pytest.mark.skipif(not has("mypy"), reason="SKIPPED: mypy is not installed")
+@pytest.mark.skipif(not has("mypy"), reason="NOTHING WAS TESTED: mypy is not installed")
 def test_stubs_agree_with_the_package(tmp_path):
     # What pybind11 makes of a class, and what mypy 1.0 makes of typing.Mapping.
     (tmp_path / "allowed").write_text("vantage._core.Model\nvantage._core.Analysis(.__init__)?\n"
@@ -91,7 +91,7 @@ def test_wheel_has_the_same_bytes_twice_and_a_true_record(tmp_path):
                 assert (digest, int(size)) == (wanted, len(wheel.read(name)))
 
 
-@pytest.mark.skipif(not has("pip"), reason="SKIPPED: pip is not installed")
+@pytest.mark.skipif(not has("pip"), reason="NOTHING WAS TESTED: pip is not installed")
 def test_wheel_installs_without_network_and_runs(tmp_path):
     wheel, target = make_wheel(tmp_path / "wheel"), tmp_path / "site"
     subprocess.run([sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--quiet",
@@ -123,7 +123,7 @@ def test_the_cookbook_runs(tmp_path, models):
         os.chdir(before)
 
 
-@pytest.mark.skipif(not has("matplotlib"), reason="SKIPPED: matplotlib is not installed")
+@pytest.mark.skipif(not has("matplotlib"), reason="NOTHING WAS TESTED: matplotlib is not installed")
 def test_the_example_makes_its_figure(tmp_path, models):
     subprocess.run([sys.executable, ROOT / "examples/python/shape_sheet.py",
                     models / "cat_lowpoly.ply", tmp_path / "sheet.png"], check=True,

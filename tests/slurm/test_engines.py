@@ -35,14 +35,14 @@ class EnginesTest(unittest.TestCase):
         self.assertEqual(exports[0].count("\n"), 8)  # a header, six boxes, a broken file
         self.assertEqual(exports[0], exports[1])
 
-    @unittest.skipUnless(shutil.which("parallel"), "GNU PARALLEL IS NOT INSTALLED, NOTHING IS TESTED")
+    @unittest.skipUnless(shutil.which("parallel"), "NOTHING WAS TESTED: GNU parallel is not installed")
     def test_gnu_parallel(self):
         (self.folder / "boxes").rename(self.folder / "my boxes")
         run = self.run_here(str(EXAMPLES / "parallel.sh"), "my boxes", "all of them", SHARDS)
         self.assertEqual(run.returncode, 0, run.stdout)
         self.check_same_as_local("my boxes", "all of them")
 
-    @unittest.skipUnless(shutil.which("snakemake"), "SNAKEMAKE IS NOT INSTALLED, NOTHING IS TESTED")
+    @unittest.skipUnless(shutil.which("snakemake"), "NOTHING WAS TESTED: Snakemake is not installed")
     def test_snakemake(self):
         run = self.run_here("snakemake", "--snakefile", str(EXAMPLES / "Snakefile"), "--cores", "2",
                             "--config", "models=boxes", "results=out", f"shards={SHARDS}")

@@ -68,7 +68,7 @@ def wait_until(condition, what, seconds=60):
         time.sleep(0.05)
 
 
-@unittest.skipIf(cluster.missing(), f"NO SLURM HERE, NOTHING IS TESTED: {cluster.missing()}")
+@unittest.skipIf(cluster.missing(), f"NOTHING WAS TESTED: no Slurm here: {cluster.missing()}")
 class SlurmTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
