@@ -5,7 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "vantage/mesh/measures.h"
 
@@ -19,8 +20,6 @@ constexpr std::size_t kVoxels = 64;
 // A part has so many samples, and this share of them all: with less its own picture gains nothing. [ours]
 constexpr std::size_t kLeastSamples = 256;
 constexpr double kLeastShare = 1.0 / 64.0;
-// A part may lie around a corner of so many voxels: each then holds such a share of it.
-constexpr double kVoxelsAround = 8.0;
 // Samples that a part has in a cell of the whole's picture, where the others have one. [ours]
 constexpr double kLeastCrowd = 256.0;
 
@@ -28,118 +27,136 @@ constexpr double kLeastCrowd = 256.0;
 class Voxels {
  public:
   explicit Voxels(std::span<const Vec3> samples)
-      : samples_(samples), counts_(kVoxels * kVoxels * kVoxels) {
+      : samples_(samples), place_of_(kVoxels * kVoxels * kVoxels, kEmpty) {
     const Box box = bounding_box(samples);
     low_ = box.low;
     side_ = box.longest_side();
     for (const Vec3& p : samples) {
-      ++counts_[index_of(voxel_of(p))];
+      const Index at = index_of(p);
+      std::uint32_t& place = place_of_[number_of(at)];
+      if (place == kEmpty) {
+        place = static_cast<std::uint32_t>(occupied_.size());
+        occupied_.push_back({.at = at});
+      }
+      ++occupied_[place].count;
+      occupied_[place].box.extend(p);
     }
   }
 
-  /// The samples of each group of neighbouring voxels that hold many, without those that are no dense part.
-  [[nodiscard]] std::vector<std::vector<std::uint32_t>> dense_groups() {
-    const double least = std::max(static_cast<double>(kLeastSamples),
-                                  kLeastShare * static_cast<double>(samples_.size()));
-    std::vector<std::uint32_t> group_of(counts_.size(), 0);
-    std::uint32_t groups = 0;
-    for (const std::size_t at : densest_first(least / kVoxelsAround)) {
-      if (group_of[at] == 0) {
-        fill(at, std::max(least, static_cast<double>(counts_[at])) / kVoxelsAround, ++groups,
-             group_of);
+  /// The samples of each dense part. Voxels that hold samples are connected with their neighbours; where
+  /// that leads to no dense part, by those that hold 2, 4, 8, … So a part ends where samples get
+  /// few, and is as wide as it can be: what is left of it beside it would be in its way.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> dense_parts() {
+    std::uint32_t most = 0;
+    for (const Voxel& voxel : occupied_) {
+      most = std::max(most, voxel.count);
+    }
+    std::uint32_t parts = 0;
+    for (std::uint32_t least = 1; least <= most; least *= 2) {
+      for (const std::vector<std::uint32_t>& group : connected(least)) {
+        if (is_dense(group)) {
+          ++parts;
+          for (const std::uint32_t place : group) {
+            occupied_[place].part = parts;
+          }
+        }
       }
     }
-    std::vector<std::vector<std::uint32_t>> of_group(groups);
-    for (std::uint32_t i = 0; groups > 0 && i < samples_.size(); ++i) {
-      const std::uint32_t group = group_of[index_of(voxel_of(samples_[i]))];
-      if (group > 0) {
-        of_group[group - 1].push_back(i);
+    std::vector<std::vector<std::uint32_t>> of_part(parts);
+    for (std::uint32_t i = 0; parts > 0 && i < samples_.size(); ++i) {
+      const std::uint32_t part = occupied_[place_of_[number_of(index_of(samples_[i]))]].part;
+      if (part > 0) {
+        of_part[part - 1].push_back(i);
       }
     }
-    std::erase_if(of_group, [&](const std::vector<std::uint32_t>& group) {
-      return static_cast<double>(group.size()) < least || crowd(group) < kLeastCrowd;
-    });
-    return of_group;
+    return of_part;
   }
 
  private:
-  using Voxel = std::array<std::size_t, 3>;
+  using Index = std::array<std::size_t, 3>;
 
-  [[nodiscard]] Voxel voxel_of(const Vec3& p) const {
-    Voxel voxel{};
+  struct Voxel {
+    Index at{};
+    std::uint32_t count = 0;
+    Eigen::AlignedBox3d box{};  // of its samples
+    std::uint32_t part = 0;     // counted from 1; 0: none
+  };
+
+  static constexpr std::uint32_t kEmpty = ~std::uint32_t{0};
+
+  [[nodiscard]] Index index_of(const Vec3& p) const {
+    Index at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<Eigen::Index>(axis);
-      voxel[axis] =
+      at[axis] =
           std::min(kVoxels - 1, static_cast<std::size_t>((p[k] - low_[k]) / side_ * kVoxels));
     }
-    return voxel;
+    return at;
   }
 
-  static std::size_t index_of(const Voxel& voxel) {
-    return (voxel[2] * kVoxels + voxel[1]) * kVoxels + voxel[0];
+  static std::size_t number_of(const Index& at) {
+    return (at[2] * kVoxels + at[1]) * kVoxels + at[0];
   }
 
-  /// The voxels of at least so many samples.
-  [[nodiscard]] std::vector<std::size_t> densest_first(double least) const {
-    std::vector<std::size_t> order;
-    for (std::size_t at = 0; at < counts_.size(); ++at) {
-      if (counts_[at] >= least) {
-        order.push_back(at);
+  /// The voxels of at least so many samples that have no part yet, each with those it is connected with.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> connected(std::uint32_t least) const {
+    std::vector<std::uint8_t> is_left(occupied_.size(), 0);
+    for (std::size_t place = 0; place < occupied_.size(); ++place) {
+      is_left[place] = occupied_[place].part == 0 && occupied_[place].count >= least ? 1 : 0;
+    }
+    std::vector<std::vector<std::uint32_t>> groups;
+    for (std::uint32_t first = 0; first < occupied_.size(); ++first) {
+      if (is_left[first] == 0) {
+        continue;
+      }
+      is_left[first] = 0;
+      std::vector<std::uint32_t>& group = groups.emplace_back(1, first);
+      for (std::size_t next = 0; next < group.size(); ++next) {
+        for_each_neighbour(occupied_[group[next]].at, [&](const Index& beside) {
+          const std::uint32_t place = place_of_[number_of(beside)];
+          if (place != kEmpty && is_left[place] != 0) {
+            is_left[place] = 0;
+            group.push_back(place);
+          }
+        });
       }
     }
-    std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
-      return std::pair(counts_[other], one) < std::pair(counts_[one], other);
-    });
-    return order;
-  }
-
-  /// Gives this voxel a group, and all that it is connected with through voxels with so many samples.
-  void fill(std::size_t first, double least, std::uint32_t group,
-            std::vector<std::uint32_t>& group_of) const {
-    std::vector<std::size_t> open{first};
-    group_of[first] = group;
-    while (!open.empty()) {
-      const std::size_t at = open.back();
-      open.pop_back();
-      for_each_neighbour({at % kVoxels, at / kVoxels % kVoxels, at / (kVoxels * kVoxels)},
-                         [&](std::size_t next) {
-                           if (group_of[next] == 0 && counts_[next] >= least) {
-                             group_of[next] = group;
-                             open.push_back(next);
-                           }
-                         });
-    }
+    return groups;
   }
 
   template <typename Function>
-  static void for_each_neighbour(const Voxel& voxel, const Function& call) {
-    const auto last = [](std::size_t at) { return std::min(at + 1, kVoxels - 1); };
-    const auto first = [](std::size_t at) { return at - std::min<std::size_t>(at, 1); };
-    for (std::size_t z = first(voxel[2]); z <= last(voxel[2]); ++z) {
-      for (std::size_t y = first(voxel[1]); y <= last(voxel[1]); ++y) {
-        for (std::size_t x = first(voxel[0]); x <= last(voxel[0]); ++x) {
-          call(index_of({x, y, z}));
+  static void for_each_neighbour(const Index& at, const Function& call) {
+    const auto last = [](std::size_t k) { return std::min(k + 1, kVoxels - 1); };
+    const auto first = [](std::size_t k) { return k - std::min<std::size_t>(k, 1); };
+    for (std::size_t z = first(at[2]); z <= last(at[2]); ++z) {
+      for (std::size_t y = first(at[1]); y <= last(at[1]); ++y) {
+        for (std::size_t x = first(at[0]); x <= last(at[0]); ++x) {
+          call({x, y, z});
         }
       }
     }
   }
 
-  /// The samples of a group for each sample that as large a square of an even picture would hold.
-  [[nodiscard]] double crowd(const std::vector<std::uint32_t>& group) const {
-    std::vector<Vec3> points;
-    points.reserve(group.size());
-    for (const std::uint32_t i : group) {
-      points.push_back(samples_[i]);
+  /// Whether the voxels hold many samples, and many for each that as large a square of an even picture would.
+  [[nodiscard]] bool is_dense(const std::vector<std::uint32_t>& group) const {
+    std::size_t held = 0;
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t place : group) {
+      held += occupied_[place].count;
+      box.extend(occupied_[place].box);
     }
-    const double share = bounding_box(points).longest_side() / side_;
-    const double even = std::max(1.0, static_cast<double>(samples_.size()) * share * share);
-    return static_cast<double>(group.size()) / even;
+    const auto all = static_cast<double>(samples_.size());
+    const double share = box.sizes().maxCoeff() / side_;
+    const double even = std::max(1.0, all * share * share);
+    const auto count = static_cast<double>(held);
+    return held >= kLeastSamples && count >= kLeastShare * all && count >= kLeastCrowd * even;
   }
 
   std::span<const Vec3> samples_;
   Vec3 low_ = Vec3::Zero();
   double side_ = 0.0;
-  std::vector<std::uint32_t> counts_;
+  std::vector<Voxel> occupied_{};
+  std::vector<std::uint32_t> place_of_;  // of each voxel, among those occupied; or kEmpty
 };
 
 /// What places span; nothing at first.
@@ -175,7 +192,7 @@ std::vector<std::vector<std::uint32_t>> dense_samples(std::span<const Vec3> samp
   if (samples.size() < kLeastSamples || !(bounding_box(samples).longest_side() > 0.0)) {
     return {};
   }
-  return Voxels(samples).dense_groups();
+  return Voxels(samples).dense_parts();
 }
 
 std::vector<std::uint32_t> faces_between(const Surface& whole,

@@ -57,6 +57,20 @@ TEST(DenseParts, AreTheSmallOnes) {
   EXPECT_EQ(parts[0].front(), 32U * 16U);
 }
 
+/// Wherever the borders of voxels are, nothing of a model is left beside its part by a stray face far away.
+TEST(DenseParts, AreWholeBesideAStrayFace) {
+  const TriMesh ring = test::torus(1.0, 0.4, 60, 30);
+  for (const double away : {50.0, 60.0, 80.0, 100.0, 140.0, 300.0}) {
+    std::vector<Vec3> samples = ring.positions;
+    for (const Vec3& corner : {Vec3(0.0, 0.0, 0.0), Vec3(0.01, 0.0, 0.0), Vec3(0.0, 0.01, 0.0)}) {
+      samples.emplace_back(corner + Vec3(away, 0.3 * away, 0.1 * away));
+    }
+    const std::vector<std::vector<std::uint32_t>> parts = dense_samples(samples);
+    ASSERT_EQ(parts.size(), 1U) << away;
+    EXPECT_EQ(parts[0].size(), ring.positions.size()) << away;
+  }
+}
+
 /// Each is the small part of another one.
 TEST(DenseParts, MayHaveDensePartsInTurn) {
   const TriMesh ring = test::torus(1.0, 0.4, 32, 16);
