@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
 
 #include "contraction/component_contraction.h"
 #include "contraction/component_scaling.h"
 #include "contraction/history_summary.h"
+#include "contraction/hole_filling.h"
 #include "contraction/missing_triangles.h"
 #include "contraction/proxy.h"
 #include "contraction/refinement.h"
@@ -291,6 +293,28 @@ ContractionHistory contract_by_area(const TriMesh& mesh, const ContractionOption
                  : contract_pieces(mesh, {}, options, run);
 }
 
+bool has_holes(const TriMesh& mesh) {
+  const EdgeTable table = build_edge_table(mesh);
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    if (table.faces_of_edge[e].size() == 1) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Those that close the components that lack little, and single ones that are missing in others.
+std::vector<Triangle> triangles_in_holes(TriMesh mesh) {
+  const std::size_t count = mesh.triangles.size();
+  for (const auto& in_holes : {fill_holes, missing_triangles}) {
+    const std::vector<Triangle> more = in_holes(mesh);
+    mesh.triangles.insert(mesh.triangles.end(), more.begin(), more.end());
+  }
+  mesh.triangles.erase(mesh.triangles.begin(),
+                       mesh.triangles.begin() + static_cast<std::ptrdiff_t>(count));
+  return std::move(mesh.triangles);
+}
+
 }  // namespace
 
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
@@ -304,17 +328,17 @@ ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& optio
   if (resolved.weights != ContractionWeights::Area) {
     return contract_pieces(mesh, {}, resolved, run);
   }
-  std::vector<Triangle> missing = missing_triangles(mesh);
+  std::vector<Triangle> missing =
+      has_holes(mesh) ? triangles_in_holes(mesh) : std::vector<Triangle>{};
   if (missing.empty()) {
     return contract_by_area(mesh, resolved, run);
   }
   TriMesh whole = mesh;
   whole.triangles.insert(whole.triangles.end(), missing.begin(), missing.end());
   ContractionHistory history = contract_by_area(whole, resolved, run);
-  history.warnings.push_back(std::to_string(missing.size()) +
-                             (missing.size() == 1 ? " triangle missing in the surface was"
-                                                  : " triangles missing in the surface were") +
-                             " put in before the contraction");
+  history.warnings.push_back("holes in the surface were closed before the contraction, by " +
+                             std::to_string(missing.size()) +
+                             (missing.size() == 1 ? " triangle" : " triangles"));
   history.missing = std::move(missing);
   return history;
 }

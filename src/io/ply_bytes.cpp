@@ -14,13 +14,14 @@ namespace {
 
 constexpr double kLargestFloat = static_cast<double>(std::numeric_limits<float>::max());
 
-/// Whether floats would overflow or lose the shape to underflow.
-bool exceeds_float(const TriMesh& mesh) {
-  const Box box = bounding_box(mesh.positions);
-  const double extent = box.longest_side();
-  constexpr double kSmallestForFloat = 1e-30;  // leaves float's 7 digits above its smallest normal
-  return std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()) > kLargestFloat ||
-         (extent > 0.0 && extent < kSmallestForFloat);
+/// Whether rounding to float moves a vertex by more than a two-millionth of the size, as it does far from the
+/// origin, or overflows.
+bool loses_shape_as_float(const TriMesh& mesh) {
+  constexpr double kMostMoved = 0x1p-21;
+  const double most = kMostMoved * bounding_box(mesh.positions).longest_side();
+  return std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3& p) {
+    return !((p.cast<float>().cast<double>() - p).cwiseAbs().maxCoeff() <= most);
+  });
 }
 
 void check_sizes(const TriMesh& mesh, std::span<const double> quality,
@@ -54,7 +55,7 @@ std::string header(const TriMesh& mesh, bool has_quality, bool has_colours, cons
 std::string ply_bytes(const TriMesh& mesh, std::span<const double> quality,
                       std::span<const Rgb8> colours, bool double_precision) {
   check_sizes(mesh, quality, colours);
-  const bool as_double = double_precision || exceeds_float(mesh);
+  const bool as_double = double_precision || loses_shape_as_float(mesh);
   std::string bytes =
       header(mesh, !quality.empty(), !colours.empty(), as_double ? "double" : "float");
   bytes.reserve(bytes.size() + mesh.positions.size() * (as_double ? 31 : 19) +

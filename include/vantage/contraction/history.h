@@ -106,7 +106,7 @@ struct ContractionHistory {
   /// level [ours: docs/contraction.md].
   std::vector<Vec3> thinned{};
   std::vector<std::string> warnings{};  ///< One sentence each.
-  /// Single triangles that the surface lacks, put in before the contraction (ours).
+  /// Triangles in holes of the surface, put in before the contraction (ours).
   std::vector<Triangle> missing{};
   /// If some component was made of few huge faces.
   std::optional<ContractedRefinement> refinement{};

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "contraction/hole_filling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/mesh/mesh_check.h"
+#include "vantage/skeleton/skeleton.h"
+
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+/// Without the faces that have a corner near a point.
+TriMesh with_hole(TriMesh mesh, const Vec3& at, double radius) {
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return (mesh.positions[v] - at).norm() < radius; });
+  });
+  return mesh;
+}
+
+TriMesh filled(TriMesh mesh) {
+  const std::vector<Triangle> missing = fill_holes(mesh);
+  mesh.triangles.insert(mesh.triangles.end(), missing.begin(), missing.end());
+  return mesh;
+}
+
+/// Whether each side of a face is a side of one other face, which runs through it the other way.
+void expect_closed(const TriMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++runs[{t[k], t[(k + 1) % 3]}];
+    }
+  }
+  for (const auto& [side, count] : runs) {
+    EXPECT_EQ(count, 1) << side.first << " to " << side.second;
+    EXPECT_EQ(runs.count({side.second, side.first}), 1U) << side.first << " to " << side.second;
+  }
+}
+
+TEST(FillHoles, ClosesASphere) {
+  const TriMesh ball = test::sphere(4);
+  TriMesh mesh = with_hole(ball, Vec3::UnitX(), 0.3);
+  mesh = with_hole(mesh, -Vec3::UnitY(), 0.2);
+  mesh = with_hole(mesh, Vec3(1.0, 2.0, 3.0).normalized(), 0.1);
+  ASSERT_LT(mesh.triangles.size() + 100, ball.triangles.size());
+  mesh = filled(std::move(mesh));
+  expect_closed(mesh);
+  const MeshReport report = check_mesh(mesh);
+  EXPECT_EQ(report.genus, 0U);
+  const double volume = check_mesh(ball).signed_volume;
+  EXPECT_NEAR(report.signed_volume, volume, 0.02 * volume);
+}
+
+/// Two faces are missing that have one corner in common.
+TEST(FillHoles, ClosesHolesThatTouch) {
+  TriMesh mesh = test::sphere(4);
+  const std::uint32_t corner = 100;
+  std::vector<std::size_t> around;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (std::find(t.begin(), t.end(), corner) != t.end()) {
+      around.push_back(f);
+    }
+  }
+  ASSERT_EQ(around.size(), 6U);
+  const auto common = [&](std::size_t a, std::size_t b) {
+    const Triangle& t = mesh.triangles[b];
+    return std::count_if(mesh.triangles[a].begin(), mesh.triangles[a].end(), [&](std::uint32_t v) {
+      return std::find(t.begin(), t.end(), v) != t.end();
+    });
+  };
+  // A face at the corner and one that has no more than it in common.
+  const auto other = std::find_if(around.begin(), around.end(),
+                                  [&](std::size_t f) { return common(around[0], f) == 1; });
+  ASSERT_NE(other, around.end());
+  for (const std::size_t f : {std::max(around[0], *other), std::min(around[0], *other)}) {
+    mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(f));
+  }
+  ASSERT_EQ(fill_holes(mesh).size(), 2U);
+  expect_closed(filled(mesh));
+}
+
+TEST(FillHoles, LeavesWhatIsMadeOpen) {
+  EXPECT_TRUE(fill_holes(test::sphere(3)).empty());
+  EXPECT_TRUE(fill_holes(test::sheet(1.0, 1.0, 8)).empty());
+  EXPECT_TRUE(fill_holes(test::wall_with_window()).empty());
+  EXPECT_TRUE(fill_holes(test::open_cylinder(1.0, 4.0, 32, 8)).empty());
+  TriMesh box = test::box(1.0, 1.0, 1.0, 8);  // without its lid
+  std::erase_if(box.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return box.positions[v].z() > 1.0 - 1e-9; });
+  });
+  ASSERT_FALSE(check_mesh(box).closed);
+  EXPECT_TRUE(fill_holes(box).empty());
+}
+
+TEST(FillHoles, LooksAtEachComponent) {
+  const TriMesh ball = with_hole(test::sphere(3), Vec3::UnitZ(), 0.3);
+  const TriMesh both = test::together(test::sheet(9.0, 9.0, 8), ball, {0.0, 0.0, 5.0});
+  const std::size_t count = fill_holes(ball).size();
+  EXPECT_GT(count, 5U);
+  EXPECT_EQ(fill_holes(both).size(), count);
+}
+
+/// A hole of four sides whose shorter diagonal is an edge of a body beside it.
+TEST(FillHoles, GivesNoEdgeAThirdFace) {
+  TriMesh mesh = test::sphere(3);
+  const Triangle first = mesh.triangles[0];
+  const auto second = std::find_if(mesh.triangles.begin() + 1, mesh.triangles.end(), [&](auto& t) {
+    return std::count_if(t.begin(), t.end(), [&](std::uint32_t v) {
+             return std::find(first.begin(), first.end(), v) != first.end();
+           }) == 2;
+  });
+  ASSERT_NE(second, mesh.triangles.end());
+  std::vector<std::uint32_t> ends;  // of the edge between them
+  std::copy_if(first.begin(), first.end(), std::back_inserter(ends), [&](std::uint32_t v) {
+    return std::find(second->begin(), second->end(), v) != second->end();
+  });
+  mesh.triangles.erase(second);
+  mesh.triangles.erase(mesh.triangles.begin());
+  const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), {Vec3(2.0, 0.0, 0.0), Vec3(2.0, 0.1, 0.0)});
+  for (const Triangle& t : {Triangle{ends[0], ends[1], n}, Triangle{ends[1], ends[0], n + 1},
+                            Triangle{ends[0], n, n + 1}, Triangle{ends[1], n + 1, n}}) {
+    mesh.triangles.push_back(t);
+  }
+  const std::vector<Triangle> missing = fill_holes(mesh);
+  ASSERT_EQ(missing.size(), 2U);
+  for (const Triangle& t : missing) {
+    EXPECT_NE(std::count(t.begin(), t.end(), ends[0]), std::count(t.begin(), t.end(), ends[1]));
+  }
+}
+
+TEST(FillHoles, IsTheSameAtAnyScale) {
+  const TriMesh mesh = with_hole(test::sphere(3), Vec3::UnitZ(), 0.3);
+  const TriMesh sheet = test::sheet(1.0, 1.0, 8);
+  for (const double scale : {1e-200, 1e-8, 1e8, 1e150}) {
+    const auto scaled = [&](const TriMesh& of) {
+      return test::moved(of, scale, 0.0, Vec3::UnitX(), Vec3::Zero());
+    };
+    EXPECT_EQ(fill_holes(scaled(mesh)), fill_holes(mesh)) << scale;
+    EXPECT_TRUE(fill_holes(scaled(sheet)).empty()) << scale;
+  }
+}
+
+TEST(FillHoles, IsFastAroundALargeHole) {
+  TriMesh mesh = test::cylinder(1.0, 20.0, 40'000, 2);
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return mesh.positions[v].z() > 20.0 - 1e-9; });
+  });
+  EXPECT_EQ(fill_holes(mesh).size(), 40'000U - 2U);
+}
+
+/// A rabbit of the well-known scan had four loops around the holes in its base.
+TEST(Contract, ClosesHolesAndSaysSo) {
+  const TriMesh ring = test::torus(1.0, 0.4, 48, 24);
+  TriMesh mesh = with_hole(ring, {1.4, 0.0, 0.0}, 0.25);
+  mesh = with_hole(mesh, {0.0, 1.0, 0.4}, 0.25);
+  mesh = with_hole(mesh, {-1.0, 0.0, -0.4}, 0.25);
+  const ContractionHistory history = contract(mesh);
+  ASSERT_EQ(history.warnings.size(), 1U);
+  EXPECT_EQ(history.warnings[0], "holes in the surface were closed before the contraction, by " +
+                                     std::to_string(history.missing.size()) + " triangles");
+  EXPECT_EQ(cycle_count(extract_skeleton(mesh, history).graph), 1U);
+  EXPECT_TRUE(contract(mesh, {.method = ContractionMethod::Exact}).warnings.empty());
+}
+
+}  // namespace
+}  // namespace vantage
