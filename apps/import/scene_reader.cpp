@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 
@@ -16,6 +17,7 @@
 #include <assimp/version.h>
 
 #include "readers.h"
+#include "scene_meshes.h"
 
 namespace vantage::importing {
 namespace {
@@ -146,89 +148,6 @@ class MaterialSender {
   std::size_t raw_pictures_ = 0;
 };
 
-std::string part_name(const aiNode& node, const aiMesh& mesh) {
-  const bool named = node.mName.length > 0 && node.mName.C_Str()[0] != '<' &&
-                     (node.mParent != nullptr || mesh.mName.length == 0);
-  return named ? node.mName.C_Str() : mesh.mName.C_Str();
-}
-
-/// Some readers fill in black that cannot be seen where a file has no colours.
-bool has_vertex_colours(const aiMesh& mesh) {
-  return mesh.HasVertexColors(0) &&
-         std::any_of(mesh.mColors[0], mesh.mColors[0] + mesh.mNumVertices,
-                     [](const aiColor4D& c) { return c != aiColor4D(0.0F, 0.0F, 0.0F, 0.0F); });
-}
-
-void add_vertices(const aiMesh& mesh, const aiMatrix4x4& place, StreamMesh& result) {
-  result.positions.reserve(std::size_t{3} * mesh.mNumVertices);
-  const bool has_colours = has_vertex_colours(mesh);
-  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-    const aiVector3D p = place * mesh.mVertices[v];
-    result.positions.insert(
-        result.positions.end(),
-        {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
-    if (has_colours) {
-      const aiColor4D& c = mesh.mColors[0][v];
-      result.colours.insert(result.colours.end(), {c.r, c.g, c.b});
-    }
-    if (mesh.HasTextureCoords(0)) {
-      const aiVector3D& t = mesh.mTextureCoords[0][v];
-      result.places.insert(result.places.end(), {t.x, t.y});
-    }
-  }
-}
-
-/// A transform that mirrors turns faces over, which is taken back.
-void add_faces(const aiMesh& mesh, bool mirrored, StreamMesh& result) {
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    const aiFace& face = mesh.mFaces[f];
-    result.faces.push_back(face.mNumIndices);
-    for (unsigned c = 0; c < face.mNumIndices; ++c) {
-      result.faces.push_back(face.mIndices[mirrored ? face.mNumIndices - 1 - c : c]);
-    }
-  }
-  result.face_count = mesh.mNumFaces;
-}
-
-void send_mesh(const aiNode& node, const aiMesh& mesh, const aiMatrix4x4& place, bool same_part,
-               StreamWriter& out) {
-  if (mesh.mVertices == nullptr) {
-    return;
-  }
-  StreamMesh result;
-  result.name = part_name(node, mesh);
-  result.material = mesh.mMaterialIndex;
-  result.same_part = same_part;
-  add_vertices(mesh, place, result);
-  add_faces(mesh, place.Determinant() < 0.0F, result);
-  out.mesh(result);
-}
-
-/// Nodes in the order of the file; a stack of our own, because files may nest them without end.
-void send_nodes(const aiScene& scene, StreamWriter& out) {
-  struct Step {
-    const aiNode* node;
-    aiMatrix4x4 above;
-  };
-
-  std::vector<Step> steps{{scene.mRootNode, aiMatrix4x4()}};
-  while (!steps.empty()) {
-    const Step step = steps.back();
-    steps.pop_back();
-    const aiMatrix4x4 place = step.above * step.node->mTransformation;
-    std::string last;
-    for (unsigned m = 0; m < step.node->mNumMeshes; ++m) {
-      const aiMesh& mesh = *scene.mMeshes[step.node->mMeshes[m]];
-      const std::string name = part_name(*step.node, mesh);
-      send_mesh(*step.node, mesh, place, m > 0 && name == last, out);
-      last = name;
-    }
-    for (unsigned c = step.node->mNumChildren; c > 0; --c) {
-      steps.push_back({step.node->mChildren[c - 1], place});
-    }
-  }
-}
-
 /// Formats in which z is up and that Assimp leaves so. Others have y up, or it turns them.
 constexpr std::array<std::string_view, 7> kZUp = {"blend", "cob", "scn", "smd",
                                                   "hmp",   "q3o", "q3s"};
@@ -286,11 +205,15 @@ void read_scene(std::string_view extension, std::string_view bytes, StreamWriter
   const aiScene* const scene =
       importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, hint.c_str());
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw std::runtime_error(importer.GetErrorString());
+    const std::string reason = importer.GetErrorString();
+    if (reason.find("bad_alloc") != std::string::npos) {
+      throw std::bad_alloc();
+    }
+    throw std::runtime_error(reason);
   }
   out.head(head_of(*scene, extension, bytes));
   MaterialSender(*scene, out).send();
-  send_nodes(*scene, out);
+  send_meshes(*scene, out);
 }
 
 std::string scene_library() {

@@ -36,7 +36,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgramName = "vantage-import";
-/// Data of the process where --max-memory says nothing, bytes, and so much may be sent. [ours]
+/// Data of the process where --max-memory says nothing and there is so much, bytes, and so much may be sent. [ours]
 constexpr std::uint64_t kUsualMemory = 8'000'000'000;
 /// Address space beyond that for the libraries themselves, bytes. [ours]
 constexpr std::uint64_t kLibraries = 1'000'000'000;
@@ -48,7 +48,7 @@ constexpr int kPollMs = 50;
 constexpr int kCannotStart = 127;
 
 struct Limits {
-  std::uint64_t memory_bytes = kUsualMemory;
+  std::uint64_t memory_bytes = std::min(kUsualMemory, usable_memory_bytes());
   double seconds = kUsualSeconds;
   std::string faces{};  ///< A number, for its command line.
 };

@@ -7,6 +7,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/shape_analysis.h"
 
+#include "mesh/specks.h"
 #include "pipeline/prepare_points.h"
 
 /// \file
@@ -36,8 +37,11 @@ inline void require_view(const ShapeAnalysis& shape, const std::string& name) {
   const double diameter = shape.sphere.diameter;
   if (!shape.cloud && shape.check.zero_area_faces >= shape.surface.triangles.size() &&
       surface_area(shape.surface) <= kNoArea * diameter * diameter) {
-    throw InvalidInput(
-        about_model(name, "its faces have no area, so no view shows anything of it"));
+    const bool has_specks = find_specks(shape.surface).count > 0;
+    throw InvalidInput(about_model(
+        name, has_specks
+                  ? "it is too small beside how far away a small component of it lies: remove that"
+                  : "its faces have no area, so no view shows anything of it"));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -53,48 +54,45 @@ int sense(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {
   return 0;
 }
 
-/// Whether the faces of each set that meet at the edge run as often one way as the other.
-bool balanced(std::span<const std::uint32_t> faces_at_edge, const std::vector<Triangle>& faces,
-              const std::array<std::uint32_t, 2>& edge, DisjointSets& sets) {
-  if (faces_at_edge.size() == 2 && sets.root(faces_at_edge[0]) == sets.root(faces_at_edge[1])) {
-    return sense(faces[faces_at_edge[0]], edge) + sense(faces[faces_at_edge[1]], edge) == 0;
+/// Of the faces that meet at the edge those of sets that run more often one way than the other.
+std::vector<std::uint32_t> unbalanced(std::span<const std::uint32_t> faces_at_edge,
+                                      const std::vector<Triangle>& faces,
+                                      const std::array<std::uint32_t, 2>& edge,
+                                      DisjointSets& sets) {
+  std::vector<std::uint32_t> found;
+  if (faces_at_edge.size() == 2 && sets.root(faces_at_edge[0]) == sets.root(faces_at_edge[1]) &&
+      sense(faces[faces_at_edge[0]], edge) + sense(faces[faces_at_edge[1]], edge) == 0) {
+    return found;  // as nearly everywhere
   }
   std::map<std::uint32_t, int> sum_of_set;
   for (const std::uint32_t f : faces_at_edge) {
     sum_of_set[sets.root(f)] += sense(faces[f], edge);
   }
-  return std::all_of(sum_of_set.begin(), sum_of_set.end(),
-                     [](const auto& sum) { return sum.second == 0; });
+  std::copy_if(faces_at_edge.begin(), faces_at_edge.end(), std::back_inserter(found),
+               [&](std::uint32_t f) { return sum_of_set[sets.root(f)] != 0; });
+  return found;
 }
 
-/// Joins faces across edges of two; across edges of more only if their shells need each other to
-/// be closed there: two cubes that share an edge remain two shells.
-DisjointSets join_faces(const std::vector<Triangle>& faces, const EdgeTable& edges,
-                        const RunContext& run) {
+/// Joins faces across edges of two; across edges of more only those whose shells need each other to be
+/// closed there: two cubes that share an edge remain two shells.
+DisjointSets join_faces(const std::vector<Triangle>& faces, const EdgeTable& edges) {
   DisjointSets sets(faces.size());
-  const auto join_all = [&](std::span<const std::uint32_t> at_edge) {
-    bool joined = false;
-    for (const std::uint32_t f : at_edge.subspan(1)) {
-      joined = sets.join(at_edge[0], f) || joined;
-    }
-    return joined;
-  };
   for (std::size_t e = 0; e < edges.edges.size(); ++e) {
-    if (edges.faces_of_edge[e].size() == 2) {
-      join_all(edges.faces_of_edge[e]);
+    if (const auto at_edge = edges.faces_of_edge[e]; at_edge.size() == 2) {
+      sets.join(at_edge[0], at_edge[1]);
     }
   }
-  for (bool changed = true; changed;) {
-    run.check();
-    changed = false;
-    for (std::size_t e = 0; e < edges.edges.size(); ++e) {
-      const auto at_edge = edges.faces_of_edge[e];
-      if (at_edge.size() > 2 && !balanced(at_edge, faces, edges.edges[e], sets)) {
-        changed = join_all(at_edge) || changed;
+  // What is joined here closes other edges: which ones are open was decided before, whatever their order.
+  DisjointSets joined = sets;
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    if (const auto at_edge = edges.faces_of_edge[e]; at_edge.size() > 2) {
+      const std::vector<std::uint32_t> open = unbalanced(at_edge, faces, edges.edges[e], sets);
+      for (const std::uint32_t f : open) {
+        joined.join(open[0], f);
       }
     }
   }
-  return sets;
+  return joined;
 }
 
 Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded, const RunContext& run) {
@@ -114,7 +112,7 @@ Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded, const RunConte
   }
   run.check();
   const EdgeTable edges = build_edge_table({.positions = {}, .triangles = shells.faces});
-  DisjointSets sets = join_faces(shells.faces, edges, run);
+  DisjointSets sets = join_faces(shells.faces, edges);
   run.check();
   shells.shell_of.resize(shells.faces.size());
   for (std::uint32_t f = 0; f < shells.faces.size(); ++f) {
@@ -128,11 +126,9 @@ Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded, const RunConte
   }
   shells.closed.assign(shells.members.size(), 1);
   for (std::size_t e = 0; e < edges.edges.size(); ++e) {
-    const auto at_edge = edges.faces_of_edge[e];
-    if (!balanced(at_edge, shells.faces, edges.edges[e], sets)) {
-      for (const std::uint32_t f : at_edge) {
-        shells.closed[shells.shell_of[f]] = 0;
-      }
+    for (const std::uint32_t f :
+         unbalanced(edges.faces_of_edge[e], shells.faces, edges.edges[e], sets)) {
+      shells.closed[shells.shell_of[f]] = 0;
     }
   }
   return shells;

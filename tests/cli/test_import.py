@@ -20,6 +20,31 @@ SIDES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
 IMPORT = pathlib.Path(PROGRAM).parent / "vantage-import"
 
 
+
+
+def source(name, values, width, kind="float"):
+    array = "Name_array" if kind == "name" else "float_array"
+    count = len(values.split())
+    names = {1: ("JOINT" if kind == "name" else "WEIGHT",), 3: ("X", "Y", "Z"), 16: ("TRANSFORM",)}[width]
+    param = "".join(f'<param name="{n}" type="{kind}"/>' for n in names)
+    return (f'<source id="{name}"><{array} id="{name}a" count="{count}">{values}</{array}><technique_common>'
+            f'<accessor source="#{name}a" count="{count // width}" stride="{width}">{param}</accessor>'
+            "</technique_common></source>")
+
+
+def collada(nodes, controller=""):
+    """A tetrahedron with the legs of CORNERS, geometry g."""
+    return ('<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>'
+            '<unit meter="1" name="m"/><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>'
+            + source("p", " ".join(str(x) for corner in CORNERS for x in corner), 3)
+            + '<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="4">'
+            '<input semantic="VERTEX" source="#v" offset="0"/><p>'
+            + " ".join(str(v) for side in SIDES for v in side)
+            + f"</p></triangles></mesh></geometry></library_geometries>{controller}<library_visual_scenes>"
+            f'<visual_scene id="s">{nodes}</visual_scene></library_visual_scenes>'
+            '<scene><instance_visual_scene url="#s"/></scene></COLLADA>')
+
+
 class Import(ProgramTest):
 
     def info(self, name):
@@ -48,6 +73,55 @@ class Import(ProgramTest):
                                capture_output=True, timeout=60, check=False)
         self.assertEqual(shell.returncode, 0, shell.stderr)
         self.assertEqual(json.loads(shell.stdout)["format"], "step")
+
+    def box_of(self, name, text):
+        self.write(name, text)
+        self.vantage("view", name, "--no-images", "--up", "y", "-o", "o", "--force")
+        box = json.loads(self.vantage("info", "--json", "o/map.ply").out)["box"]
+        return [high - low for low, high in zip(box["low"], box["high"])]
+
+    def test_a_shape_far_from_the_origin_keeps_its_size_to_the_map(self):
+        place = '<node id="n"><translate>6000000 0 7000000</translate><instance_geometry url="#g"/></node>'
+        wanted = [0.004, 0.003, 0.002]
+        for found, side in zip(self.box_of("a.dae", collada(place.replace(
+                "<instance", "<scale>0.001 0.001 0.001</scale><instance"))), wanted):
+            self.assertAlmostEqual(found, side, delta=1e-6)
+
+    def test_a_skinned_mesh_is_where_its_joints_hold_it(self):
+        one = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
+        skin = ('<library_controllers><controller id="c"><skin source="#g"><bind_shape_matrix>10 0 0 0 0 10 0 0 '
+                "0 0 10 0 0 0 0 1</bind_shape_matrix>" + source("j", "a b", 1, "name")
+                + source("i", f"{one} {one}", 16, "float4x4") + source("w", "1", 1)
+                + '<joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#i"/>'
+                '</joints><vertex_weights count="4"><input semantic="JOINT" source="#j" offset="0"/>'
+                '<input semantic="WEIGHT" source="#w" offset="1"/><vcount>1 1 1 1</vcount>'
+                "<v>0 0 0 0 1 0 0 0</v></vertex_weights></skin></controller></library_controllers>")
+        nodes = ('<node id="a" sid="a" name="a" type="JOINT"><node id="b" sid="b" name="b" type="JOINT">'
+                 '<translate>0 100 0</translate></node></node><node id="n"><instance_controller url="#c"><skeleton>#a</skeleton>'
+                 "</instance_controller></node>")
+        self.assertEqual(self.box_of("a.dae", collada(nodes, skin)), [40, 130, 20])
+        self.assertIn("skinned meshes are shown as their joints stand", self.vantage("info", "a.dae").err)
+
+    def test_what_an_fbx_hides_is_left_out_unless_that_is_all(self):
+        numbers = ",".join(str(x) for corner in CORNERS for x in corner)
+        sides = ",".join(f"{a},{b},{-c - 1}" for a, b, c in SIDES)
+
+        def fbx(*shown):
+            objects = "".join(
+                f'Geometry: {k}, "Geometry::g", "Mesh" {{\nVertices: *12 {{\na: {numbers}\n}}\n'
+                f'PolygonVertexIndex: *12 {{\na: {sides}\n}}\n}}\nModel: {100 + k}, "Model::m{k}", "Mesh" {{\n'
+                f'Properties70:  {{\nP: "Show", "bool", "", "",{int(is_shown)}\n}}\n}}\n'
+                for k, is_shown in enumerate(shown, 1))
+            ties = "".join(f'C: "OO",{k},{100 + k}\nC: "OO",{100 + k},0\n' for k in range(1, len(shown) + 1))
+            return ("; FBX 7.4.0 project file\nFBXHeaderExtension:  {\nFBXVersion: 7400\n}\n"
+                    f"Objects:  {{\n{objects}}}\nConnections:  {{\n{ties}}}\n")
+
+        for shown, left in (((True, False), 4), ((True, True), 8), ((False, False), 8)):
+            self.write("a.fbx", fbx(*shown))
+            info = json.loads(self.vantage("info", "--json", "a.fbx").out)
+            self.assertEqual(info["faces"], left, shown)
+            self.assertEqual([note for note in info["notes"] if "hides" in note],
+                             ["nodes that the file hides left out: 1"] if left == 4 else [])
 
     def test_other_formats_of_solids(self):
         plate, block = self.info("plate.iges"), self.info("block.brep")

@@ -177,6 +177,14 @@ class WhatWasMeant(ProgramTest):
             self.assertIn("a: its faces have no area", self.vantage(*words, exit_code=1).err, words)
         self.assertEqual([p.name for p in self.dir.iterdir()], ["a.obj"])
 
+    def test_a_component_too_far_away_for_any_view_is_named(self):
+        self.write("a.obj", "".join(f"v {x} {y} {z}\n" for s, d in ((1, 0), (0.01, 1e8))
+                                    for x, y, z in ((d, 0, 0), (d + s, 0, 0), (d, s, 0), (d, 0, s)))
+                   + "".join(f"f {a + k} {b + k} {c + k}\n" for k in (0, 4)
+                             for a, b, c in ((1, 3, 2), (1, 2, 4), (2, 3, 4), (3, 1, 4))))
+        self.assertIn("a: it is too small beside how far away a small component of it lies",
+                      self.vantage("view", "a.obj", exit_code=1).err)
+
     def test_what_a_camera_file_says_is_not_said_again(self):
         self.write("a.off", box(1))
         for flag in ("--fov", "--distance"):

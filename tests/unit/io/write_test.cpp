@@ -139,10 +139,15 @@ TEST(PlyBytes, LeaveOutQualityAndColoursThatAreNotGiven) {
                               std::size_t{2} * 13);
 }
 
-TEST(PlyBytes, TurnToDoubleWhereFloatsWouldOverflow) {
-  EXPECT_THAT(
-      ply_bytes(moved(sheet(1, 1, 1), 1e60, 0.0, Vec3::UnitX(), Vec3::Zero()), {}, {}, false),
-      HasSubstr("property double x"));
+TEST(PlyBytes, TurnToDoubleWhereFloatsWouldLoseTheShape) {
+  const auto bytes_of = [](double scale, const Vec3& shift) {
+    return ply_bytes(moved(sheet(1, 1, 1), scale, 0.0, Vec3::UnitX(), shift), {}, {}, false);
+  };
+  EXPECT_THAT(bytes_of(1e60, Vec3::Zero()), HasSubstr("property double x"));
+  EXPECT_THAT(bytes_of(1e-45, Vec3::Zero()), HasSubstr("property double x"));
+  EXPECT_THAT(bytes_of(0.3, Vec3(5e6, 0.1, 0.1)), HasSubstr("property double x"));
+  EXPECT_THAT(bytes_of(1.0, Vec3(0.1, 0.1, 0.1)), HasSubstr("property float x"));
+  EXPECT_THAT(bytes_of(1.0, Vec3(0.0, 0.0, 5e6)), HasSubstr("property float x"));  // exact
 }
 
 TEST(PlyBytes, RefuseMapsThatDoNotFit) {

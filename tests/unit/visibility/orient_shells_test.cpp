@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -108,6 +109,32 @@ TEST(OrientShells, KeepsCubesThatShareAnEdgeApart) {
   const OrientedMesh oriented = orient_shells(cubes);
   EXPECT_EQ(oriented.turned_shells, 1U);
   EXPECT_NEAR(signed_volume(oriented.mesh), 2.0, 1e-12);
+}
+
+/// The halves of an octahedron need each other to be closed; a small body at each edge between them does not,
+/// whichever edge comes first.
+TEST(OrientShells, JoinsOnlyWhatIsOpenByItself) {
+  TriMesh mesh{.positions = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0),
+                             Vec3(0, 0, 1), Vec3(0, 0, -1)},
+               .triangles = {}};
+  for (std::uint32_t a = 0; a < 4; ++a) {
+    const std::uint32_t b = (a + 1) % 4;
+    mesh.triangles.push_back({a, b, 4});
+    mesh.triangles.push_back({b, a, 5});
+    const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+    const Vec3 out = 0.7 * (mesh.positions[a] + mesh.positions[b]);
+    mesh.positions.insert(mesh.positions.end(),
+                          {out + Vec3(0.0, 0.0, 0.2), out - Vec3(0.0, 0.0, 0.2)});
+    for (const Triangle& t :
+         {Triangle{a, n, b}, Triangle{b, n, n + 1}, Triangle{b, n + 1, a}, Triangle{a, n + 1, n}}) {
+      mesh.triangles.push_back({t[0], t[2], t[1]});  // inside out
+    }
+  }
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const OrientedMesh oriented = orient_shells(test::renumbered(mesh, seed));
+    EXPECT_EQ(oriented.turned_shells, 4U) << seed;
+    EXPECT_EQ(count(oriented, FaceSides::Front), oriented.sides.size()) << seed;
+  }
 }
 
 TEST(OrientShells, LeavesAFlatClosedShellAlone) {
