@@ -199,6 +199,7 @@ struct BatchCommand {
       batch::check_overview(root);
     }
     const batch::FolderLock lock(root, runner.work_name);
+    session.if_stopped = "; the same command goes on from there, and makes the overview at its end";
     if (on_slurm) {
       run_shards(session, *source, root);
       return;
@@ -441,11 +442,9 @@ struct BatchCommand {
     if (part) {
       source = std::make_unique<batch::ShardEntries>(std::move(source), *part);
     }
-    const RunContext run = session.run();
     std::int64_t count = 0;
-    while (source->next()) {
+    for (const RunContext run = session.run(); source->next(); ++count) {
       run.check();
-      ++count;
     }
     return count;
   }

@@ -175,7 +175,8 @@ void require_distinct(const std::vector<NamedOutput>& outputs) {
 
 void check_output(const std::string& path, OutputKind kind, const CommonFlags& flags) {
   std::error_code error;  // a link counts as what it leads to
-  if (fs::weakly_canonical(path, error).filename() == batch::ResultsStore::kFileName &&
+  const fs::path target = fs::weakly_canonical(path, error);
+  if (target.filename() == batch::ResultsStore::kFileName &&
       head_of(path).value_or("").starts_with("SQLite format 3")) {
     throw IoError(path, "holds the results of a batch; choose another name");
   }
@@ -183,7 +184,7 @@ void check_output(const std::string& path, OutputKind kind, const CommonFlags& f
     return;
   }
   refuse_inputs(path, flags.inputs);
-  if (flags.force || is_only_written(path, kind)) {
+  if (flags.force || is_only_written(target, kind)) {
     return;
   }
   const std::optional<std::string> head = head_of(path);

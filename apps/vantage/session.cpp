@@ -217,7 +217,7 @@ int Session::report_failure() {
     throw;
   } catch (const Cancelled&) {
     const int number = first_signal.load();
-    complain(words_of_signal(number));
+    complain(words_of_signal(number) + (number == SIGALRM ? std::string() : if_stopped));
     return code_of_signal(number);
   } catch (const IoError& error) {
     if (std::string_view(error.what()).starts_with("standard output") && reader_has_gone()) {

@@ -65,7 +65,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   CommonFlags flags{};
-  int exit_code = kDone;  ///< Of a run that ends without an exception.
+  int exit_code = kDone;     ///< Of a run that ends without an exception.
+  std::string if_stopped{};  ///< Ends the sentence on a signal: what can be done then.
 
   /// The context to pass to the library: progress to a terminal, stop on signals, threads.
   [[nodiscard]] RunContext run();

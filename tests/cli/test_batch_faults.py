@@ -184,6 +184,7 @@ class WholeBatch(FaultTest):
                 _, err = process.communicate(timeout=60)
                 self.assertEqual(process.returncode, code)
                 self.assertEqual(len(err.decode().strip().splitlines()), 1, err)
+                self.assertIn("the same command goes on from there", err.decode())
                 self.assertEqual(list((self.dir / "out/.work").glob("local/*")), [])
                 self.assertEqual(len(self.rows()), 5)
         self.assertEqual(self.run_with(*self.names)["m4.off"]["status"], "done")

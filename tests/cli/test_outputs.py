@@ -262,6 +262,12 @@ class Links(ProgramTest):
         self.assertTrue((self.dir / "link.png").is_symlink())
         self.assertTrue((self.dir / "picture.png").read_bytes().startswith(b"\x89PNG"))
 
+    def test_a_link_named_as_a_picture_to_what_is_none_is_not_written_through(self):
+        self.write("notes.txt", "my notes\n")
+        os.symlink("notes.txt", self.dir / "link.png")
+        self.assertIn("--force", self.vantage("thumb", "a.off", "link.png", "-s", "16", exit_code=1).err)
+        self.assertEqual((self.dir / "notes.txt").read_text(), "my notes\n")
+
 
 class Leftovers(ProgramTest):
 

@@ -171,15 +171,17 @@ Statement table_rows(ResultsStore& store) {
       "", "");
 }
 
-/// The end of a path without its extension: of "a/b/cup.ply" and 2 parts "b/cup".
-std::string tail_of(const std::string& key, std::size_t parts) {
+/// The end of a path: of "a/b/cup.ply" and 2 parts "b/cup.ply", or "b/cup".
+std::string tail_of(const std::string& key, std::size_t parts, bool keeps_extension) {
   std::size_t begin = key.size();
   for (std::size_t i = 0; i < parts && begin != std::string::npos && begin > 0; ++i) {
     begin = key.rfind('/', begin - 1);
   }
   const std::string tail = begin == std::string::npos ? key : key.substr(begin + 1);
   const std::size_t dot = tail.rfind('.');
-  return dot == std::string::npos || dot < tail.rfind('/') + 1 ? tail : tail.substr(0, dot);
+  return keeps_extension || dot == std::string::npos || dot < tail.rfind('/') + 1
+             ? tail
+             : tail.substr(0, dot);
 }
 
 /// What models are called where they stand side by side: their names, or if several have one, as much
@@ -195,11 +197,12 @@ std::map<std::string, std::string> labels_of(ResultsStore& store) {
   }
   std::map<std::string, std::string> labels;
   for (const auto& [name, keys] : keys_of_name) {
-    constexpr std::size_t kMostParts = 8;
-    for (std::size_t parts = 2; keys.size() > 1 && parts <= kMostParts; ++parts) {
+    // cup.ply, b/cup, b/cup.ply, a/b/cup, …
+    constexpr std::size_t kMostSteps = 16;
+    for (std::size_t step = 1; keys.size() > 1 && step < kMostSteps; ++step) {
       std::set<std::string> tails;
       for (const std::string& key : keys) {
-        labels[key] = tail_of(key, parts);
+        labels[key] = tail_of(key, step / 2 + 1, step % 2 == 1);
         tails.insert(labels[key]);
       }
       if (tails.size() == keys.size()) {

@@ -76,7 +76,7 @@ inline constexpr std::array<ImportFormat, 41> kImportFormats = {{
     {"md3", "md3", "Quake III", false},
     {"md5mesh", "md5mesh", "Doom 3", false},
     {"mdc", "mdc", "Wolfenstein", false},
-    {"mdl", "mdl", "Quake", false},
+    {"mdl", "mdl", "Quake or Half-Life", false},
     {"hmp", "hmp", "GameStudio terrain", false},
     {"iqm", "iqm", "Inter-Quake", false},
     {"b3d", "b3d", "Blitz3D", false},
