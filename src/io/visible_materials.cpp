@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "vantage/io/model.h"
 
@@ -34,6 +36,9 @@ double alpha_at(const Texture& texture, double u, double v) {
   return texture.image.pixel(x, y)[3] / 255.0;
 }
 
+/// Largest opacities of whole textures that were asked for before.
+using KnownAlphas = std::vector<std::optional<double>>;
+
 double largest_alpha(const Texture& texture) {
   std::uint8_t largest = 0;
   for (std::size_t i = 3; i < texture.image.rgba.size(); i += 4) {
@@ -43,14 +48,17 @@ double largest_alpha(const Texture& texture) {
 }
 
 /// The largest opacity of a texture found at places of a face.
-double largest_alpha(const Appearance& appearance, const Material& material, std::size_t face) {
+double largest_alpha(const Appearance& appearance, const Material& material, std::size_t face,
+                     KnownAlphas& known) {
   const Texture& texture = appearance.textures[*material.texture];
   const bool has_uvs =
       face < appearance.uv_of_triangle.size() &&
       std::none_of(appearance.uv_of_triangle[face].begin(), appearance.uv_of_triangle[face].end(),
                    [](std::uint32_t uv) { return uv == Appearance::kNone; });
   if (!has_uvs) {
-    return largest_alpha(texture);
+    std::optional<double>& of_all = known[*material.texture];
+    of_all = of_all ? of_all : largest_alpha(texture);
+    return *of_all;
   }
   constexpr int kSteps = 8;  // places along each side
   double largest = 0.0;
@@ -73,7 +81,7 @@ double largest_alpha(const Appearance& appearance, const Material& material, std
   return largest;
 }
 
-bool is_visible(const Appearance& appearance, std::size_t face) {
+bool is_visible(const Appearance& appearance, std::size_t face, KnownAlphas& known) {
   const std::uint32_t index = appearance.material_of_triangle[face];
   if (index >= appearance.materials.size()) {
     return true;  // without a material
@@ -85,15 +93,16 @@ bool is_visible(const Appearance& appearance, std::size_t face) {
   const double least = material.alpha == AlphaMode::Mask ? material.alpha_cutoff : kLeastOpacity;
   return material.opacity >= least &&
          (!material.texture ||
-          material.opacity * largest_alpha(appearance, material, face) >= least);
+          material.opacity * largest_alpha(appearance, material, face, known) >= least);
 }
 
 }  // namespace
 
 bool make_visible(Appearance& appearance) {
   const std::size_t faces = appearance.material_of_triangle.size();
+  KnownAlphas known(appearance.textures.size());
   for (std::size_t face = 0; face < faces; ++face) {
-    if (is_visible(appearance, face)) {
+    if (is_visible(appearance, face, known)) {
       return false;
     }
   }
