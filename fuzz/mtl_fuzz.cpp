@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
     if (!(material.opacity >= 0.0 && material.opacity <= 1.0) ||
-        !std::isfinite(material.scale[0]) || !std::isfinite(material.offset[1])) {
+        !std::isfinite(material.picture.scale[0]) || !std::isfinite(material.mask.offset[1])) {
       std::abort();
     }
   }

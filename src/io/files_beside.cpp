@@ -89,7 +89,7 @@ std::vector<std::string> names_in_obj(const std::string& text, const SideFileSou
   libraries.read();
   std::vector<std::string> names = libraries.paths();
   for (const auto& [material, look] : libraries.materials()) {
-    for (const std::string& picture : {look.picture, look.mask}) {
+    for (const std::string& picture : {look.picture.name, look.mask.name}) {
       if (!picture.empty()) {
         add_places(names, picture, exists);
       }

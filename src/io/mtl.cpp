@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "io/number_parsing.h"
-#include "io/text_cursor.h"
+#include "io/obj_lines.h"
 
 namespace vantage {
 namespace {
@@ -37,16 +37,16 @@ void read_pair(std::string_view& rest, std::array<double, 2>& pair) {
   }
 }
 
-/// Reads the options of a map line into the material; what is left is the file's name, which may
-/// hold spaces.
-std::string_view after_options(std::string_view rest, MtlMaterial& material) {
+/// Reads a map line: options, and what is left is the file's name, which may hold spaces.
+MtlMap map_of(std::string_view rest) {
+  MtlMap map;
   while (!trimmed(rest).empty() && trimmed(rest).front() == '-') {
     std::string_view line = rest;
     const std::string_view option = take_token(line);
     if (option == "-s") {
-      read_pair(line, material.scale);
+      read_pair(line, map.scale);
     } else if (option == "-o") {
-      read_pair(line, material.offset);
+      read_pair(line, map.offset);
     } else if (option == "-t") {
       std::array<double, 2> turbulence{};
       read_pair(line, turbulence);
@@ -55,11 +55,12 @@ std::string_view after_options(std::string_view rest, MtlMaterial& material) {
       take_token(line);
     } else {
       const std::string_view value = take_token(line);
-      material.clamp = option == "-clamp" ? value == "on" : material.clamp;
+      map.clamp = option == "-clamp" ? value == "on" : map.clamp;
     }
     rest = line;
   }
-  return without_quotes(trimmed(rest));
+  map.name = without_quotes(trimmed(rest));
+  return map;
 }
 
 /// \param keyword in lower case: writers differ.
@@ -73,14 +74,16 @@ void read_line(std::string_view keyword, std::string_view rest, MtlMaterial& mat
       material.colour = colour;
     }
   } else if (keyword == "d") {
+    std::string_view line = rest;
+    rest = take_token(line) == "-halo" ? line : rest;
     material.opacity = share(next_number(rest), material.opacity);
-  } else if (keyword == "tr") {
+    material.has_d = true;
+  } else if (keyword == "tr" && !material.has_d) {
     material.opacity = 1.0 - share(next_number(rest), 1.0 - material.opacity);
   } else if (keyword == "map_kd") {
-    material.picture = after_options(rest, material);
+    material.picture = map_of(rest);
   } else if (keyword == "map_d") {
-    MtlMaterial unused;
-    material.mask = after_options(rest, unused);
+    material.mask = map_of(rest);
   }
 }
 
@@ -88,10 +91,10 @@ void read_line(std::string_view keyword, std::string_view rest, MtlMaterial& mat
 
 std::map<std::string, MtlMaterial, std::less<>> parse_mtl(std::string_view text) {
   std::map<std::string, MtlMaterial, std::less<>> materials;
-  TextCursor cursor(without_bom(text));
+  ObjLines lines(text);
   MtlMaterial ignored;
   MtlMaterial* current = &ignored;
-  while (const std::optional<std::string_view> line = cursor.next_line()) {
+  while (const std::optional<std::string_view> line = lines.next()) {
     std::string_view rest = *line;
     const std::string keyword = lower_case(take_token(rest));
     if (keyword == "newmtl") {

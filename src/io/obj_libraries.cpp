@@ -13,6 +13,11 @@ std::string folder_of(const std::string& path) {
   return path.substr(0, path.find_last_of('/') + 1);
 }
 
+/// What a name is if " #" begins a comment behind it.
+std::string_view without_comment(std::string_view name) {
+  return trimmed(name.substr(0, name.find(" #")));
+}
+
 }  // namespace
 
 void ObjLibraries::add(std::string_view names) {
@@ -35,6 +40,12 @@ void ObjLibraries::read() {
       missing_.push_back(names);
     }
   }
+}
+
+const MtlMaterial* ObjLibraries::find(std::string_view name) const {
+  auto found = materials_.find(name);
+  found = found == materials_.end() ? materials_.find(without_comment(name)) : found;
+  return found == materials_.end() ? nullptr : &found->second;
 }
 
 std::vector<std::string> ObjLibraries::unread_paths() const {
@@ -69,9 +80,11 @@ bool ObjLibraries::read_materials(const std::string& path) {
   paths_.push_back(path);
   const std::string folder = folder_of(path);
   for (auto& [material, look] : parse_mtl(*file.bytes)) {
-    look.picture = look.picture.empty() ? "" : folder + with_slashes(look.picture);
-    look.mask = look.mask.empty() ? "" : folder + with_slashes(look.mask);
+    for (std::string* name : {&look.picture.name, &look.mask.name}) {
+      *name = name->empty() ? "" : folder + with_slashes(*name);
+    }
     materials_.try_emplace(material, look);
+    materials_.try_emplace(std::string(without_comment(material)), look);
   }
   return true;
 }

@@ -33,6 +33,9 @@ class ObjLibraries {
     return materials_;
   }
 
+  /// The material of this name, or of what stands before a comment in it; null if there is none.
+  [[nodiscard]] const MtlMaterial* find(std::string_view name) const;
+
   /// Paths of the libraries that were read, in the order in which they are named.
   [[nodiscard]] const std::vector<std::string>& paths() const { return paths_; }
 

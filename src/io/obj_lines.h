@@ -9,11 +9,11 @@
 
 namespace vantage {
 
-/// Whether a line of an OBJ goes on in the next: a \ is at its end, before blanks that do not show in an
+/// Whether a line of an OBJ or MTL goes on in the next: a \ is at its end, before blanks that do not show in an
 /// editor, and in no comment.
 bool goes_on(std::string_view line);
 
-/// Lines of an OBJ, each joined with those that it continues on.
+/// Lines of an OBJ or MTL, each joined with those that it continues on.
 class ObjLines {
  public:
   /// \param text must outlive this.

@@ -10,24 +10,27 @@
 namespace vantage {
 namespace {
 
-/// The picture, or a white one, seen where the mask is bright, or opaque if it has an alpha channel of its own.
-Image masked(std::optional<Image> picture, const Image& mask) {
-  Image result =
-      picture ? std::move(*picture)
-              : Image{mask.width, mask.height, std::vector<std::uint8_t>(mask.rgba.size(), 255)};
+/// The pixel of an image that lies at pixel (x, y) of one of another size. \pre sides are at most
+/// kLargestPictureSide, whose square an int holds.
+const std::uint8_t* seen_at(const Image& image, int x, int y, const Image& size) {
+  return image.pixel(x * image.width / size.width, y * image.height / size.height);
+}
+
+/// The picture seen where the mask is bright, or opaque if it has an alpha channel of its own; as fine as the one
+/// that has more pixels.
+Image masked(const Image& picture, const Image& mask) {
   bool has_alpha = false;
   for (std::size_t i = 3; i < mask.rgba.size(); i += 4) {
     has_alpha |= mask.rgba[i] < 255;
   }
-  const auto width = static_cast<std::size_t>(result.width);
-  const auto height = static_cast<std::size_t>(result.height);
-  const auto mask_width = static_cast<std::size_t>(mask.width);
-  for (std::size_t y = 0; y < height; ++y) {
-    const std::size_t row = y * static_cast<std::size_t>(mask.height) / height;
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint8_t* seen = &mask.rgba[4 * (row * mask_width + x * mask_width / width)];
+  Image result = picture.rgba.size() < mask.rgba.size() ? mask : picture;
+  std::uint8_t* pixel = result.rgba.data();
+  for (int y = 0; y < result.height; ++y) {
+    for (int x = 0; x < result.width; ++x, pixel += 4) {
+      const std::uint8_t* seen = seen_at(mask, x, y, result);
       const int light = (seen[0] + seen[1] + seen[2]) / 3;
-      result.rgba[4 * (y * width + x) + 3] = has_alpha ? seen[3] : static_cast<std::uint8_t>(light);
+      std::copy_n(seen_at(picture, x, y, result), 3, pixel);
+      pixel[3] = has_alpha ? seen[3] : static_cast<std::uint8_t>(light);
     }
   }
   return result;
@@ -40,29 +43,31 @@ void ObjMaterials::use(std::string_view name) {
   builder_.begin_material(index_of_name_.try_emplace(std::string(name), next).first->second);
 }
 
-std::optional<Image> ObjMaterials::picture(const std::string& name) {
-  const std::optional<std::string> path = name.empty() ? std::nullopt : libraries_.place_of(name);
-  return path ? loader_.beside(*path) : std::nullopt;
+std::optional<std::string> ObjMaterials::path_of(const MtlMap& map) const {
+  return map.name.empty() ? std::nullopt : libraries_.place_of(map.name);
 }
 
-std::optional<std::uint32_t> ObjMaterials::texture(const MtlMaterial& source) {
-  const std::string key = source.picture + (source.clamp ? " clamped " : " ") + source.mask;
-  if (const auto known = known_pictures_.find(key); known != known_pictures_.end()) {
+std::optional<std::uint32_t> ObjMaterials::texture(const MtlMaterial& source, bool clamp) {
+  const std::optional<std::string> picture = path_of(source.picture);
+  std::optional<std::string> mask = path_of(source.mask);
+  mask = mask == picture ? std::nullopt : std::move(mask);  // its opacity is there already
+  const auto [known, is_new] = known_textures_.try_emplace({picture, mask, clamp});
+  if (!is_new) {
     return known->second;
   }
-  std::optional<std::uint32_t>& place = known_pictures_[key];
-  std::optional<Image> image = picture(source.picture);
-  if (source.mask != source.picture) {
-    if (const std::optional<Image> mask = picture(source.mask)) {
-      image = masked(std::move(image), *mask);
+  std::optional<Image> image = picture ? loader_.beside(*picture) : std::nullopt;
+  if (mask) {
+    if (const std::optional<Image> holes = loader_.beside(*mask)) {
+      const Image white{1, 1, {255, 255, 255, 255}};
+      image = masked(image ? *image : white, *holes);
     }
   }
   if (image) {
-    const TextureWrap wrap = source.clamp ? TextureWrap::Clamp : TextureWrap::Repeat;
-    place = static_cast<std::uint32_t>(textures_.size());
+    const TextureWrap wrap = clamp ? TextureWrap::Clamp : TextureWrap::Repeat;
+    known->second = static_cast<std::uint32_t>(textures_.size());
     textures_.push_back({std::move(*image), wrap, wrap, false});
   }
-  return place;
+  return known->second;
 }
 
 Material ObjMaterials::material(const MtlMaterial& source) {
@@ -70,21 +75,25 @@ Material ObjMaterials::material(const MtlMaterial& source) {
   for (std::size_t c = 0; c < 3; ++c) {
     result.colour[c] = linear_of_encoded(source.colour[c]);
   }
+  const bool has_picture = !source.picture.name.empty();
+  const bool has_mask = !source.mask.name.empty();
   // Programs that put the whole colour into the picture often leave Kd black.
-  if (!source.picture.empty() && source.colour == std::array{0.0, 0.0, 0.0}) {
+  if (has_picture && source.colour == std::array{0.0, 0.0, 0.0}) {
     result.colour = {1.0, 1.0, 1.0};
   }
   result.opacity = source.opacity;
   result.alpha = source.opacity < 1.0 ? AlphaMode::Blend : AlphaMode::Opaque;
-  if (!source.picture.empty() || !source.mask.empty()) {
-    result.texture = texture(source);
-    if (!source.mask.empty() && result.texture && result.alpha == AlphaMode::Opaque) {
+  const MtlMap& laid = has_picture ? source.picture : source.mask;
+  masks_laid_otherwise_ += has_picture && has_mask && !source.mask.lies_as(source.picture) ? 1 : 0;
+  if (has_picture || has_mask) {
+    result.texture = texture(source, laid.clamp);
+    if (has_mask && result.texture && result.alpha == AlphaMode::Opaque) {
       result.alpha = AlphaMode::Mask;  // what is glass besides stays glass
     }
   }
   // Wavefront's coordinates begin at the bottom left, ours at the top left.
-  result.uv_transform = {source.scale[0],       0.0, source.offset[0], 0.0, -source.scale[1],
-                         1.0 - source.offset[1]};
+  result.uv_transform = {laid.scale[0],       0.0, laid.offset[0], 0.0, -laid.scale[1],
+                         1.0 - laid.offset[1]};
   return result;
 }
 
@@ -103,13 +112,17 @@ void ObjMaterials::finish() {
   std::vector<Material> materials(index_of_name_.size());
   std::size_t unknown = 0;
   for (const auto& [name, index] : index_of_name_) {
-    const auto found = libraries_.materials().find(name);
-    unknown += found == libraries_.materials().end() ? 1 : 0;
-    if (found != libraries_.materials().end()) {
-      materials[index] = material(found->second);
+    const MtlMaterial* const found = libraries_.find(name);
+    unknown += found == nullptr ? 1 : 0;
+    if (found != nullptr) {
+      materials[index] = material(*found);
     }
   }
   loader_.finish();
+  if (masks_laid_otherwise_ > 0) {
+    builder_.note("masks (map_d) with options of their own, laid as their pictures are: " +
+                  std::to_string(masks_laid_otherwise_));
+  }
   if (unknown > 0 && missing.empty() && !libraries_.materials().empty()) {
     builder_.note("materials of faces that no material library has: " + std::to_string(unknown));
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "vantage/mesh/appearance.h"
@@ -37,15 +38,19 @@ class ObjMaterials {
 
  private:
   Material material(const MtlMaterial& source);
-  std::optional<std::uint32_t> texture(const MtlMaterial& source);
-  std::optional<Image> picture(const std::string& name);
+  std::optional<std::uint32_t> texture(const MtlMaterial& source, bool clamp);
+  [[nodiscard]] std::optional<std::string> path_of(const MtlMap& map) const;
 
   ModelBuilder& builder_;
   TextureLoader loader_;
   ObjLibraries libraries_;
   std::map<std::string, std::uint32_t, std::less<>> index_of_name_{};
-  std::map<std::string, std::optional<std::uint32_t>> known_pictures_{};
+  /// By paths of picture and mask, and whether it is clamped.
+  std::map<std::tuple<std::optional<std::string>, std::optional<std::string>, bool>,
+           std::optional<std::uint32_t>>
+      known_textures_{};
   std::vector<Texture> textures_{};
+  std::size_t masks_laid_otherwise_ = 0;
 };
 
 }  // namespace vantage

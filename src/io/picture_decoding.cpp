@@ -51,9 +51,10 @@ std::string picture_size_problem(std::size_t width, std::size_t height, std::siz
   if (width == 0 || height == 0) {
     return "is empty";
   }
-  if (width > kSide || height > kSide || width * height > most_pixels) {
+  const bool is_too_large = width > kSide || height > kSide || width * height > kMostPicturePixels;
+  if (is_too_large || width * height > most_pixels) {
     return "is too large with " + std::to_string(width) + " × " + std::to_string(height) +
-           " pixels";
+           " pixels" + (is_too_large ? "" : " beside the model's other pictures");
   }
   return {};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/ply_textures.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,15 +33,17 @@ PlyTextures::PlyTextures(const PlyHeader& header, const Surroundings& surroundin
 
 void PlyTextures::read(const PlyHeader& header, const Surroundings& surroundings) {
   TextureLoader loader(surroundings, builder_);
+  std::map<std::string, std::uint32_t> known;
   for (const std::string& name : header.textures) {
     const std::optional<std::string> path =
         place_of_picture(with_slashes(name), surroundings.has_side_file);
-    std::optional<Image> image = path ? loader.beside(*path) : std::nullopt;
-    material_of_picture_.push_back(image ? static_cast<std::uint32_t>(textures_.size())
-                                         : Appearance::kNone);
+    const auto [at, is_new] = known.try_emplace(path.value_or(""), Appearance::kNone);
+    std::optional<Image> image = path && is_new ? loader.beside(*path) : std::nullopt;
     if (image) {
+      at->second = static_cast<std::uint32_t>(textures_.size());
       textures_.push_back({std::move(*image), TextureWrap::Repeat, TextureWrap::Repeat, false});
     }
+    material_of_picture_.push_back(at->second);
   }
   loader.finish();
 }

@@ -24,7 +24,7 @@ inline constexpr std::size_t kMostDecodedPixels = 4 * kMostTexturePixels;
 /// Most notes about pictures of one model; more are counted.
 inline constexpr std::size_t kMostTextureNotes = 5;
 
-/// Reads the pictures that a model names, each once. What goes wrong becomes a note.
+/// Reads the pictures that a model names. Readers keep what they got of each. What goes wrong becomes a note.
 class TextureLoader {
  public:
   /// Both must outlive this.

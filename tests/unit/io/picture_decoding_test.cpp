@@ -112,7 +112,8 @@ TEST(DecodePicture, RefusesAPngThatDeclaresMoreThanTheLimit) {
       decode_picture(png_header(std::string("\0\1\0\0", 4), std::string("\0\1\0\0", 4))).problem,
       testing::AnyOf(HasSubstr("too large"), HasSubstr("not a sound PNG")));
   const std::string wide = png_bytes(Image{9000, 1, std::vector<std::uint8_t>(36000)});
-  EXPECT_THAT(decode_picture(wide, 8999).problem, HasSubstr("too large with 9000 × 1 pixels"));
+  EXPECT_THAT(decode_picture(wide, 8999).problem,
+              HasSubstr("too large with 9000 × 1 pixels beside the model's other pictures"));
   EXPECT_TRUE(decode_picture(wide, 9000).image);
 }
 

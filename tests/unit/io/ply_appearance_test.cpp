@@ -96,6 +96,18 @@ TEST_F(PlyAppearance, EachFaceNamesItsPicture) {
   EXPECT_THAT(a.uv_of_triangle[3], Each(kNone));
 }
 
+TEST_F(PlyAppearance, APictureIsOneTextureHoweverOftenItIsNamed) {
+  const Appearance a = load(header(std::string(kNamesA) + "comment TextureFile m.png\n"
+                                                          "comment TextureFile ./a.png\n",
+                                   "", std::string(kOfCorners) + "property int texnumber\n", 3) +
+                            kSquare +
+                            "3 0 1 2 6 0 0 1 0 1 1 2\n3 0 2 3 6 0 0 1 1 0 1 1\n"
+                            "3 0 1 3 6 0 0 1 0 0 1 0\n")
+                           .appearance;
+  EXPECT_EQ(a.textures.size(), 2U);
+  EXPECT_THAT(a.material_of_triangle, ElementsAre(0U, 1U, 0U));
+}
+
 TEST_F(PlyAppearance, VerticesHavePlacesByAnyOfTheirNames) {
   for (const auto& [u, v] : {std::pair("texture_u", "texture_v"), {"s", "t"}, {"u", "v"}}) {
     const std::string text = header(kNamesA,
