@@ -333,11 +333,15 @@ void add_off_point(ModelBuilder& builder, const OffLayout& layout, const double*
 }
 
 Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run) {
+  // A vertex may be broken over lines though there are enough of them for all.
   OffReader reader(bytes, name, run);
   try {
-    return reader.read(/*may_be_by_line=*/true);
+    Model model = reader.read(/*may_be_by_line=*/true);
+    const bool fits = model.skipped_faces == 0 && !reader.has_rest();
+    std::optional<Model> free_form =
+        reader.is_by_line() && !fits ? read_in_free_form(bytes, name, run) : std::optional<Model>();
+    return free_form && free_form->skipped_faces == 0 ? std::move(*free_form) : std::move(model);
   } catch (const FormatError&) {
-    // A vertex may be broken over lines though there are enough of them for all.
     std::optional<Model> model =
         reader.is_by_line() ? read_in_free_form(bytes, name, run) : std::optional<Model>();
     if (!model) {

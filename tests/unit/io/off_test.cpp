@@ -11,6 +11,7 @@
 namespace vantage::test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -140,6 +141,19 @@ TEST(Off, ReadsVerticesThatAreBrokenOverLines) {
   EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 3}));
   // Only if all numbers are accounted for.
   EXPECT_THAT(error_text(text + "7\n", "a.off"), HasSubstr("line 3: expected 3 coordinates"));
+}
+
+TEST(Off, ReadsNormalsOnLinesOfTheirOwn) {
+  const Model model =
+      off("NOFF\n3 2 0\n0 0 0\n0 0 1\n1 0 0\n0 0 1\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 1\n");
+  EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 1}));
+  EXPECT_THAT(model.notes, IsEmpty());
+}
+
+TEST(Off, LeavesLinesWithTextBeyondThemAsTheyAre) {
+  const Model model = off("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2 9 9\n7\n");
+  EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_THAT(model.notes, Contains(HasSubstr("text after the last face left out, from line 7")));
 }
 
 TEST(Off, ReadsBinaryWithTheHighestByteFirst) {
