@@ -46,7 +46,7 @@ std::string only_two(std::string_view version) {
 }
 
 /// Splits a GLB file.
-Chunks glb_chunks(std::string_view bytes, const ModelBuilder& builder) {
+Chunks glb_chunks(std::string_view bytes, ModelBuilder& builder) {
   constexpr std::size_t kHeaderBytes = 12;
   constexpr std::size_t kChunkHeaderBytes = 8;
   constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
@@ -64,6 +64,9 @@ Chunks glb_chunks(std::string_view bytes, const ModelBuilder& builder) {
   if (word(8) > bytes.size()) {
     builder.fail({"byte", 8}, "the file should have " + std::to_string(word(8)) +
                                   " bytes but has " + std::to_string(bytes.size()));
+  }
+  if (bytes.size() > word(8)) {
+    builder.note("bytes after the last chunk left out: " + std::to_string(bytes.size() - word(8)));
   }
   bytes = bytes.substr(0, word(8));
   Chunks chunks;

@@ -124,6 +124,9 @@ void read_binary_off(std::string_view bytes, std::size_t start, const OffLayout&
     }
     builder.advance(words.offset(), bytes.size());
   }
+  if (const std::size_t rest = bytes.size() - words.offset(); rest > 0) {
+    builder.note("bytes after the last face left out: " + std::to_string(rest));
+  }
 }
 
 }  // namespace vantage

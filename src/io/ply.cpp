@@ -176,10 +176,9 @@ class BodyReader {
   }
 
   void read_faces(const PlyElement& element) {
-    if (element.count > 0 && std::any_of(element.properties.begin(), element.properties.end(),
-                                         [](const PlyProperty& property) {
-                                           return lower_case(property.name) == "red";
-                                         })) {
+    if (element.count > 0 &&
+        std::any_of(element.properties.begin(), element.properties.end(),
+                    [](const PlyProperty& property) { return property.role == PlyRole::Red; })) {
       builder_.note("colours of faces left out; those of vertices are read");
     }
     const bool is_textured =
@@ -299,6 +298,10 @@ class BodyReader {
   }
 
   void skip_element(const PlyElement& element) {
+    if (element.count > 0 && !has_faces_ && names_vertices(element)) {
+      builder_.note("elements " + in_quotes(element.name) +
+                    " left out: " + std::to_string(element.count));
+    }
     for (std::uint64_t i = 0; !element.properties.empty() && i < element.count; ++i) {
       source_.begin_row();
       for (const PlyProperty& property : element.properties) {
@@ -307,6 +310,13 @@ class BodyReader {
       source_.end_row();
       builder_.advance(source_.offset(), all_bytes_);
     }
+  }
+
+  /// Edges have vertex1 and vertex2, grids of scanners vertex_indices.
+  static bool names_vertices(const PlyElement& element) {
+    return std::any_of(
+        element.properties.begin(), element.properties.end(),
+        [](const PlyProperty& property) { return property.name.starts_with("vertex"); });
   }
 
   void skip_property(const PlyProperty& property) {

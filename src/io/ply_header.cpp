@@ -65,11 +65,12 @@ constexpr std::array<RoleName, 19> kVertexRoles = {{{"x", PlyRole::X},
 PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
   PlyRole role = PlyRole::Other;
   const std::string name = lower_case(property.name);
-  if (element.kind == PlyElement::Kind::Vertex && !property.is_list) {
-    const auto* const entry =
-        std::find_if(kVertexRoles.begin(), kVertexRoles.end(),
-                     [&](const RoleName& known) { return known.name == name; });
-    role = entry == kVertexRoles.end() ? PlyRole::Other : entry->role;
+  const auto* const entry = std::find_if(kVertexRoles.begin(), kVertexRoles.end(),
+                                         [&](const RoleName& known) { return known.name == name; });
+  const bool is_known = entry != kVertexRoles.end() && !property.is_list;
+  const bool is_colour = is_known && entry->role >= PlyRole::Red && entry->role <= PlyRole::Blue;
+  if (is_colour || (is_known && element.kind == PlyElement::Kind::Vertex)) {
+    role = entry->role;
   } else if ((element.kind == PlyElement::Kind::Face || element.kind == PlyElement::Kind::Strips) &&
              property.is_list &&
              (name == "vertex_indices" || name == "vertex_index" || name == "vertex_indexes")) {

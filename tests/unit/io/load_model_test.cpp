@@ -10,6 +10,7 @@
 #include "vantage/io/write.h"
 
 #include "support/temporary_folder.h"
+#include "unit/io/glb_bytes.h"
 
 namespace vantage::test {
 namespace {
@@ -55,6 +56,15 @@ TEST(LoadModel, RefusesABufferBehindALinkThatLeavesTheFolder) {
   std::filesystem::create_symlink(elsewhere.file("a.bin"), folder.file("a.bin"));
   write_file(folder.file("a.gltf"), gltf_with_buffer("a.bin"));
   EXPECT_THAT(load_error(folder.file("a.gltf")), HasSubstr("lies outside the model's folder"));
+}
+
+TEST(LoadModel, SaysThatBytesFollowAGlb) {
+  std::string json = gltf_with_buffer("");
+  json.replace(json.find(R"(,"uri":"")"), 9, "");
+  const std::string whole = glb(json, std::string(36, '\0'));
+  EXPECT_THAT(parse_model(whole, "a.glb").notes, testing::IsEmpty());
+  EXPECT_THAT(parse_model(whole + "tail", "a.glb").notes,
+              testing::ElementsAre("bytes after the last chunk left out: 4"));
 }
 
 TEST(LoadModel, RefusesABufferThatIsMissing) {

@@ -156,6 +156,12 @@ TEST(Off, LeavesLinesWithTextBeyondThemAsTheyAre) {
   EXPECT_THAT(model.notes, Contains(HasSubstr("text after the last face left out, from line 7")));
 }
 
+TEST(Off, SaysThatBytesFollowTheFacesOfABinaryFile) {
+  EXPECT_THAT(off(binary_off(true)).notes, IsEmpty());
+  EXPECT_THAT(off(binary_off(true) + "rest!").notes,
+              ElementsAre("bytes after the last face left out: 5"));
+}
+
 TEST(Off, ReadsBinaryWithTheHighestByteFirst) {
   const Model model = parse_model(binary_off(true), "a.off");
   EXPECT_EQ(model.mesh.positions[2], Vec3(0, 2.5, 0));

@@ -12,6 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 constexpr const char* kVertices =
     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
@@ -68,6 +69,30 @@ TEST(Ply, SaysThatColoursOfFacesAreLeftOutAndTakesNamesInAnyCase) {
   EXPECT_EQ(model.mesh.triangles.size(), 1U);
   EXPECT_THAT(model.notes,
               testing::ElementsAre("colours of faces left out; those of vertices are read"));
+}
+
+TEST(Ply, KnowsColoursOfFacesByEachNameThatThoseOfVerticesHave) {
+  for (const std::string name : {"red", "r", "diffuse_red"}) {
+    const Model model = ply(ascii(std::string(kVertices) +
+                                      "element face 1\nproperty list uchar int vertex_indices\n"
+                                      "property uchar " +
+                                      name + "\n",
+                                  std::string(kFourPoints) + "3 0 1 2 255\n"));
+    EXPECT_THAT(model.notes, ElementsAre("colours of faces left out; those of vertices are read"))
+        << name;
+  }
+}
+
+TEST(Ply, SaysWhatElsePointsWereJoinedBy) {
+  const auto notes = [](const std::string& element, const std::string& rows) {
+    return ply(ascii(kVertices + element, kFourPoints + rows)).notes;
+  };
+  EXPECT_THAT(notes("element edge 2\nproperty int vertex1\nproperty int vertex2\n", "0 1\n2 3\n"),
+              ElementsAre("elements 'edge' left out: 2"));
+  EXPECT_THAT(notes("element range_grid 2\nproperty list uchar int vertex_indices\n", "1 0\n0\n"),
+              ElementsAre("elements 'range_grid' left out: 2"));
+  EXPECT_THAT(notes("element camera 1\nproperty float view_px\n", "1\n"), IsEmpty());
+  EXPECT_THAT(notes("element edge 0\nproperty int vertex1\nproperty int vertex2\n", ""), IsEmpty());
 }
 
 TEST(Ply, ReadsPropertiesInCapitals) {
