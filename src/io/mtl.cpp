@@ -76,8 +76,9 @@ void read_line(std::string_view keyword, std::string_view rest, MtlMaterial& mat
   } else if (keyword == "d") {
     std::string_view line = rest;
     rest = take_token(line) == "-halo" ? line : rest;
-    material.opacity = share(next_number(rest), material.opacity);
-    material.has_d = true;
+    const std::optional<double> factor = next_number(rest);
+    material.opacity = share(factor, material.opacity);
+    material.has_d |= factor.has_value();
   } else if (keyword == "tr" && !material.has_d) {
     material.opacity = 1.0 - share(next_number(rest), 1.0 - material.opacity);
   } else if (keyword == "map_kd") {
