@@ -190,6 +190,7 @@ class SceneReader {
   struct Amount {
     std::size_t spent = 0;  // of the budget
     std::size_t faces = 0;
+    std::size_t vertices = 0;  // of surfaces
   };
 
   /// \param skin that places the vertices instead of the node; null: none.
@@ -205,8 +206,9 @@ class SceneReader {
     }
     spend(of_mesh_[m]->spent);
     faces_ += of_mesh_[m]->faces;
-    if (most_faces_ > 0 && faces_ > most_faces_) {
-      builder_.fail(too_many_faces(most_faces_));
+    vertices_ += of_mesh_[m]->vertices;
+    if (is_beyond_limit(faces_, vertices_, most_faces_)) {
+      builder_.fail(too_many_faces(most_faces_, faces_ <= most_faces_));
     }
   }
 
@@ -241,6 +243,7 @@ class SceneReader {
       const std::size_t corners = primitive.indices < 0 ? points : elements(primitive.indices);
       const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
       amount.spent += points + corners;
+      amount.vertices += points;
       amount.faces += is_list ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
     }
     return amount;
@@ -295,6 +298,7 @@ class SceneReader {
     spend(points.count());
     std::optional<GltfSkinnedVertices> skinned;
     if (skin != nullptr) {
+      spend(points.count() * GltfSkinnedVertices::sets_of(primitive));
       skinned.emplace(document_, primitive, points.count(), *skin, builder_);
     }
     const bool is_held = skinned && skinned->are_held();
@@ -458,7 +462,8 @@ class SceneReader {
   std::vector<std::optional<Amount>> of_mesh_;  // where it was asked for
   std::map<int, std::size_t> elements_{};       // of accessors that were asked for
   bool is_counting_ = false;
-  std::size_t faces_ = 0;  // counted
+  std::size_t faces_ = 0;     // counted
+  std::size_t vertices_ = 0;  // so too
   std::size_t budget_ = 0;
   std::size_t visits_left_ = 0;
   bool has_clear_ = false;              // a vertex is not opaque

@@ -35,18 +35,26 @@ GltfSkin::GltfSkin(const GltfDocument& document, int skin, GltfNodes& nodes,
   }
 }
 
+std::size_t GltfSkinnedVertices::sets_of(const tinygltf::Primitive& primitive) {
+  std::size_t sets = 0;
+  while (primitive.attributes.count("JOINTS_" + std::to_string(sets)) > 0 &&
+         primitive.attributes.count("WEIGHTS_" + std::to_string(sets)) > 0) {
+    ++sets;
+  }
+  return sets;
+}
+
 GltfSkinnedVertices::GltfSkinnedVertices(const GltfDocument& document,
                                          const tinygltf::Primitive& primitive, std::size_t count,
                                          const GltfSkin& skin, const ModelBuilder& builder)
     : skin_(skin), builder_(builder) {
-  for (int set = 0;; ++set) {
-    const auto joints = primitive.attributes.find("JOINTS_" + std::to_string(set));
-    const auto weights = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
-    if (joints == primitive.attributes.end() || weights == primitive.attributes.end()) {
-      return;
-    }
-    sets_.push_back({GltfAccessor(document, joints->second, count, builder),
-                     GltfAccessor(document, weights->second, count, builder)});
+  const auto accessor = [&](const char* name, std::size_t set) {
+    return GltfAccessor(document, primitive.attributes.at(name + std::to_string(set)), count,
+                        builder);
+  };
+  const std::size_t sets = sets_of(primitive);
+  for (std::size_t set = 0; set < sets; ++set) {
+    sets_.push_back({accessor("JOINTS_", set), accessor("WEIGHTS_", set)});
     const Set& added = sets_.back();
     if (added.joints.count() != count || added.weights.count() != count ||
         added.joints.components() != 4 || added.weights.components() != 4 ||

@@ -26,6 +26,9 @@ class GltfSkin {
 /// The vertices of a primitive that a skin holds.
 class GltfSkinnedVertices {
  public:
+  /// How many sets of joints and weights the primitive has; each holds every vertex.
+  static std::size_t sets_of(const tinygltf::Primitive& primitive);
+
   /// Refers to `skin`. \param count of vertices. \throw FormatError
   GltfSkinnedVertices(const GltfDocument& document, const tinygltf::Primitive& primitive,
                       std::size_t count, const GltfSkin& skin, const ModelBuilder& builder);

@@ -40,7 +40,7 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
       case ModelFormat::Pwn:
         return parse_point_list(bytes, name, detected.format, run);
       case ModelFormat::Pcd:
-        return parse_pcd(bytes, name, run);
+        return parse_pcd(bytes, name, run, surroundings.options.max_faces);
       case ModelFormat::Threemf:
         return parse_threemf(bytes, name, run, surroundings);
       case ModelFormat::Amf:
@@ -55,11 +55,11 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
     }
     return parse_gltf(bytes, name, run, surroundings);
   }();
-  if (const std::size_t most = surroundings.options.max_faces; most > 0) {
-    const bool is_cloud = model.mesh.triangles.empty();
-    if ((is_cloud ? model.mesh.positions.size() : model.mesh.triangles.size()) > most) {
-      throw FormatError(name, "", too_many_faces(most, is_cloud));
-    }
+  const std::size_t most = surroundings.options.max_faces;
+  const std::size_t faces = model.mesh.triangles.size();
+  const std::size_t points = model.mesh.positions.size();
+  if (is_beyond_limit(faces > 0 ? faces : points, points, most)) {
+    throw FormatError(name, "", too_many_faces(most, faces <= most));
   }
   model.format = detected.format;
   model.imported_as = detected.import_as == nullptr ? "" : detected.import_as->name;

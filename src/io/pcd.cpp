@@ -121,10 +121,15 @@ void read_binary(std::string_view body, std::size_t begin, bool by_column, const
 
 }  // namespace
 
-Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext& run) {
+Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext& run,
+                std::size_t max_points) {
   bytes = without_bom(bytes);
   ModelBuilder builder(ModelFormat::Pcd, name, run, 0);
   const PcdHeader header = read_pcd_header(bytes, builder);
+  // What marks missing ones is not known yet.
+  if (is_beyond_limit(0, header.points, max_points)) {
+    builder.fail(too_many_faces(max_points, /*of_points=*/true));
+  }
   if (std::any_of(header.fields.begin(), header.fields.end(), [](const PcdField& field) {
         return field.name == "rgb" || field.name == "rgba";
       })) {

@@ -163,8 +163,9 @@ void PlateReader::add_mesh(const PlateObject& object, const Visit& visit) {
   spend(object.points.size() + object.triangles.size() * 3 + object.name.size());
   if (is_counting_) {
     faces_ += object.triangles.size();
-    if (most_faces_ > 0 && faces_ > most_faces_) {
-      builder_.fail(too_many_faces(most_faces_));
+    points_ += object.points.size();
+    if (is_beyond_limit(faces_, points_, most_faces_)) {
+      builder_.fail(too_many_faces(most_faces_, faces_ <= most_faces_));
     }
     return;
   }

@@ -116,7 +116,8 @@ class PlateReader {
   std::size_t file_bytes_;
   std::size_t most_faces_;
   bool is_counting_ = false;
-  std::size_t faces_ = 0;  // counted
+  std::size_t faces_ = 0;   // counted
+  std::size_t points_ = 0;  // so too
   std::size_t budget_ = 0;
   std::size_t visits_left_ = 0;
   std::size_t objects_ = 0;

@@ -58,7 +58,9 @@ Model parse_ply(std::string_view bytes, std::string_view name, const RunContext&
 Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run);
 
 /// Point Cloud Data 0.5 to 0.7: ascii, binary or binary_compressed; x, y, z of whatever fields.
-Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext& run);
+/// \param max_points see ReadOptions::max_faces.
+Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext& run,
+                std::size_t max_points);
 
 /// Lists of points, one a line, for .xyz, .pts and .pwn: the first three columns, or two and z = 0;
 /// the rest (normals, colours) is passed over, and so is a heading.
@@ -83,9 +85,15 @@ Model parse_import_stream(std::string_view stream, const ImportFormat& format,
                           std::string_view name, const RunContext& run,
                           const Surroundings& surroundings);
 
-/// What is wrong with a model of more than ReadOptions::max_faces, for a message.
-inline std::string too_many_faces(std::size_t most, bool is_cloud = false) {
-  return "has more than " + std::to_string(most) + (is_cloud ? " points" : " faces") +
+/// Whether a model is larger than ReadOptions::max_faces allows; 0: any size. Faces that share no points
+/// have three each.
+inline bool is_beyond_limit(std::size_t faces, std::size_t points, std::size_t most) {
+  return most > 0 && (faces > most || points / 3 > most);
+}
+
+/// What is wrong with such a model, for a message.
+inline std::string too_many_faces(std::size_t most, bool of_points) {
+  return "has more than " + std::to_string(most) + (of_points ? " points" : " faces") +
          ", the most that --max-faces allows; decimate it, or allow more if there is the memory";
 }
 

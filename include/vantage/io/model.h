@@ -94,8 +94,8 @@ struct ReadOptions {
   /// Textures are looked at no closer than that many pixels on their longer side, so that large JPEGs
   /// may be read at a half, a quarter or an eighth; 0: always whole.
   int texture_side = 0;
-  /// A model of more triangles, or without any of more points, is refused; 0: none is. Instances
-  /// of a file are counted before they are made.
+  /// A model of more triangles, or thrice as many vertices, or without triangles of more points, is
+  /// refused; 0: none is. Instances of a file are counted before they are made.
   std::size_t max_faces = 0;
   /// Reads formats that the library does not read itself; empty: they are refused.
   ModelImporter importer{};

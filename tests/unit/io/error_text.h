@@ -10,9 +10,10 @@
 namespace vantage::test {
 
 /// What parse_model() complains about, or "nothing" if it reads the bytes.
-inline std::string error_text(std::string_view bytes, std::string_view name) {
+inline std::string error_text(std::string_view bytes, std::string_view name,
+                              const ReadOptions& options = {}) {
   try {
-    parse_model(bytes, name);
+    parse_model(bytes, name, {}, options);
   } catch (const FormatError& error) {
     return error.what();
   }

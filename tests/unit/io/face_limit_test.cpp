@@ -35,6 +35,9 @@ TEST(FaceLimit, HoldsForEveryFormatAndForPoints) {
   };
   EXPECT_THAT(refusal(square, "square.obj"), HasSubstr("has more than 1 faces, the most that"));
   EXPECT_THAT(refusal("0 0 0\n1 0 0\n", "two.xyz"), HasSubstr("has more than 1 points"));
+  EXPECT_THAT(
+      refusal("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1 1\nv 2 1 1\nf 1 2 3\n", "loose.obj"),
+      HasSubstr("has more than 1 points"));  // no face has half of them
 }
 
 }  // namespace

@@ -97,6 +97,37 @@ TEST(Gltf, CountsFacesOfNodesBeforeTheyAreMade) {
   }
 }
 
+TEST(Gltf, CountsVerticesThatNoFaceHasBeforeTheyAreMade) {
+  Scene scene;
+  scene.accessors =
+      R"({"componentType":5126,"count":4000,"type":"VEC3","sparse":{"count":4,
+          "indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}}},
+         {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"})";
+  EXPECT_EQ(parse_model(scene.bytes(), "a.glb", {}, {.max_faces = 2000}).mesh.positions.size(),
+            4000U);
+  EXPECT_THAT(error_text(scene.bytes(), "a.glb", {.max_faces = 1000}),
+              HasSubstr("has more than 1000 points"));
+}
+
+TEST(Gltf, CountsTheJointsOfEachSet) {
+  Scene scene;
+  scene.nodes = R"([{"mesh":0,"skin":0}])";
+  scene.primitive = R"({"attributes":{"POSITION":0)";
+  for (int set = 0; set < 20; ++set) {
+    const std::string number = std::to_string(set);
+    scene.primitive += ",\"JOINTS_" + number + "\":2,\"WEIGHTS_" + number + "\":3";
+  }
+  scene.primitive += R"(},"indices":1,"mode":5})";
+  scene.accessors =
+      R"({"componentType":5126,"count":100000,"type":"VEC3","sparse":{"count":4,
+          "indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}}},
+         {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"},
+         {"componentType":5121,"count":100000,"type":"VEC4"},
+         {"componentType":5126,"count":100000,"type":"VEC4"})";
+  scene.more = R"(,"skins":[{"joints":[0]}])";
+  EXPECT_THAT(scene.error(), HasSubstr("out of proportion"));
+}
+
 TEST(Gltf, CountsPrimitivesWithoutPositionsInOneNote) {
   Scene scene;
   scene.primitive += R"(,{"attributes":{}},{"attributes":{}})";

@@ -77,6 +77,14 @@ TEST(Pcd, RefusesMorePointsThanTheFileHolds) {
               HasSubstr("more than the file holds"));
 }
 
+TEST(Pcd, CountsPointsBeforeTheyAreUnpacked) {
+  for (const std::string kind : {"ascii", "binary", "binary_compressed"}) {
+    EXPECT_THAT(error_text(pcd("6", kind) + "1", "a.pcd", {.max_faces = 1}),
+                HasSubstr("has more than 1 points"))
+        << kind;
+  }
+}
+
 TEST(Pcd, NotesWhatFollowsTheLastPoint) {
   EXPECT_THAT(parse_model(pcd("1", "ascii") + "1 2 3 9\n4 5 6 9\n", "a.pcd").notes,
               ElementsAre("text after the last point left out, from line 13"));
