@@ -53,8 +53,7 @@ PlatePart AmfDocument::finish() {
   return std::move(part_);
 }
 
-void AmfDocument::start_element(std::string_view whole, const XmlAttributes& attributes) {
-  const std::string_view element = xml_local(whole);
+void AmfDocument::start_element(std::string_view element, const XmlAttributes& attributes) {
   const std::string_view above = parent();
   text_.clear();
   if (path_.empty()) {
@@ -91,7 +90,7 @@ void AmfDocument::start_element(std::string_view whole, const XmlAttributes& att
   path_.emplace_back(element);
 }
 
-void AmfDocument::end_element(std::string_view /*whole*/) {
+void AmfDocument::end_element(std::string_view /*name*/) {
   const std::string element = std::move(path_.back());
   path_.pop_back();
   if (element == "vertex") {

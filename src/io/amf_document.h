@@ -50,8 +50,8 @@ class AmfDocument : public XmlReader {
     std::string wanted{};
   };
 
-  void start_element(std::string_view whole, const XmlAttributes& attributes) override;
-  void end_element(std::string_view whole) override;
+  void start_element(std::string_view element, const XmlAttributes& attributes) override;
+  void end_element(std::string_view name) override;
   void add_text(std::string_view text) override;
 
   void begin_object(const XmlAttributes& attributes);

@@ -41,13 +41,6 @@ bool is_read(std::string_view extension) {
                      [&](std::string_view known) { return extension.starts_with(known); });
 }
 
-/// The name without its namespace; empty if that is an extension that is not read: slices have vertices, too.
-std::string_view name_if_read(std::string_view whole) {
-  const std::string_view space = whole.substr(0, whole.size() - xml_local(whole).size());
-  const std::string_view extension = extension_name(space);
-  return extension.size() == space.size() || is_read(extension) ? xml_local(whole) : "";
-}
-
 /// Half a byte, or 16.
 unsigned hexadecimal(char c) {
   return c >= '0' && c <= '9'   ? static_cast<unsigned>(c - '0')
@@ -96,8 +89,7 @@ class ThreemfPartReader::State : public XmlReader {
     namespaces_[std::string(prefix)] = uri;
   }
 
-  void start_element(std::string_view whole, const XmlAttributes& attributes) override {
-    const std::string_view element = name_if_read(whole);
+  void start_element(std::string_view element, const XmlAttributes& attributes) override {
     if (element == "vertex") {
       add_vertex(attributes);
     } else if (element == "triangle") {
@@ -121,10 +113,15 @@ class ThreemfPartReader::State : public XmlReader {
     }
   }
 
-  void end_element(std::string_view whole) override {
-    if (name_if_read(whole) == "object") {
+  void end_element(std::string_view element) override {
+    if (element == "object") {
       object_ = nullptr;
     }
+  }
+
+  /// Slices, which are not read, have vertices, too.
+  [[nodiscard]] bool reads(std::string_view space) const override {
+    return is_read(extension_name(space));
   }
 
   /// \param prefixes of the namespaces that the part needs.

@@ -18,6 +18,10 @@ std::string_view xml_local(std::string_view whole) {
   return whole.substr(whole.rfind(kXmlBetween) + 1);
 }
 
+std::string_view xml_space(std::string_view whole) {
+  return whole.substr(0, whole.size() - xml_local(whole).size());
+}
+
 std::string_view xml_trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
@@ -26,7 +30,7 @@ std::string_view xml_trimmed(std::string_view text) {
 
 std::optional<std::string_view> XmlAttributes::text(std::string_view name) const {
   for (const XML_Char** at = list_; *at != nullptr; at += 2) {
-    if (xml_local(at[0]) == name) {
+    if ((reader_ == nullptr ? xml_local(at[0]) : reader_->own_name(at[0])) == name) {
       return at[1];
     }
   }
@@ -79,6 +83,11 @@ void XmlReader::parse(std::string_view piece, bool is_last) {
   }
 }
 
+std::string_view XmlReader::own_name(std::string_view whole) const {
+  const std::string_view space = xml_space(whole);
+  return space.empty() || space == root_space_ || reads(space) ? xml_local(whole) : "";
+}
+
 /// expat is C: what is thrown inside its calls is kept and thrown again outside.
 template <class Step>
 void XmlReader::guarded(const Step& step) {
@@ -103,7 +112,10 @@ void XmlReader::on_start(void* reader, const XML_Char* name, const XML_Char** at
     if (++self.depth_ > kDeepestXmlElement) {
       self.fail("its elements are nested deeper than any of a 3D model");
     }
-    self.start_element(name, XmlAttributes(attributes));
+    if (self.depth_ == 1) {
+      self.root_space_ = xml_space(name);
+    }
+    self.start_element(self.own_name(name), XmlAttributes(attributes, &self));
   });
 }
 
@@ -111,7 +123,7 @@ void XmlReader::on_end(void* reader, const XML_Char* name) {
   auto& self = *static_cast<XmlReader*>(reader);
   self.guarded([&] {
     --self.depth_;
-    self.end_element(name);
+    self.end_element(self.own_name(name));
   });
 }
 

@@ -33,10 +33,17 @@ inline constexpr XML_Char kXmlBetween = '|';
 /// The name without its namespace.
 std::string_view xml_local(std::string_view whole);
 
+/// The namespace with kXmlBetween behind it; empty: none.
+std::string_view xml_space(std::string_view whole);
+
+class XmlReader;
+
 /// Attributes of an element, as expat hands them over.
 class XmlAttributes {
  public:
-  explicit XmlAttributes(const XML_Char** list) : list_(list) {}
+  /// \param reader that knows which namespaces are read; null: any.
+  explicit XmlAttributes(const XML_Char** list, const XmlReader* reader = nullptr)
+      : list_(list), reader_(reader) {}
 
   [[nodiscard]] std::optional<std::string_view> text(std::string_view name) const;
 
@@ -45,6 +52,7 @@ class XmlAttributes {
 
  private:
   const XML_Char** list_;
+  const XmlReader* reader_;
 };
 
 /// Without blanks and ends of lines around it.
@@ -76,10 +84,16 @@ class XmlReader {
   /// Call once all pieces are there. \throw FormatError
   void end() { parse({}, true); }
 
+  /// The name without its namespace; empty if that is neither the root's nor one that is read.
+  [[nodiscard]] std::string_view own_name(std::string_view whole) const;
+
  protected:
-  /// \param whole with the namespace.
-  virtual void start_element(std::string_view whole, const XmlAttributes& attributes) = 0;
-  virtual void end_element(std::string_view whole) = 0;
+  /// \param name see own_name().
+  virtual void start_element(std::string_view name, const XmlAttributes& attributes) = 0;
+  virtual void end_element(std::string_view name) = 0;
+
+  /// Whether names of another namespace than the root's are the format's, too. \param space see xml_space().
+  [[nodiscard]] virtual bool reads(std::string_view /*space*/) const { return false; }
 
   /// Of an element, maybe in several pieces.
   virtual void add_text(std::string_view /*text*/) {}
@@ -113,7 +127,8 @@ class XmlReader {
   std::span<const std::string_view> usual_names_;
   std::size_t& records_left_;
   XmlParser parser_;
-  XML_Index added_ = 0;  ///< Bytes.
+  XML_Index added_ = 0;       ///< Bytes.
+  std::string root_space_{};  ///< Of the root's name.
   int depth_ = 0;
   std::unordered_set<std::string> names_{};  ///< But for the usual ones.
   std::exception_ptr failure_{};

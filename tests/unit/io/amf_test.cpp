@@ -284,6 +284,16 @@ TEST(AmfError, RefusesInstancesThatDoubleAtEveryLevel) {
   EXPECT_THAT(amf_error(content), HasSubstr("out of proportion"));
 }
 
+TEST(Amf, PassesOverElementsAndAttributesOfForeignNamespaces) {
+  const std::string foreign = R"( xmlns:x="urn:foreign" x:unit="inch")";
+  const std::string parts = "<x:object id=\"1\"/>" + solid("1") + "<x:vertex/>";
+  for (const std::string own : {"", " xmlns=\"urn:amf\""}) {
+    const Model model = parse_model(amf(parts, foreign + own), "a.amf");
+    EXPECT_EQ(model.mesh.triangles.size(), 4U);
+    EXPECT_THAT(model.notes, IsEmpty());
+  }
+}
+
 TEST(Amf, SurvivesElementsInWrongPlaces) {
   const std::string twice = volume(triangle(0, 2, 1) + volume("") + triangle(0, 1, 3));
   EXPECT_EQ(

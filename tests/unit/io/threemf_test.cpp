@@ -86,6 +86,20 @@ TEST(Threemf, TakesVerticesOfSlicesForNone) {
   EXPECT_EQ(model.mesh.triangles.size(), 4U);
 }
 
+TEST(Threemf, PassesOverElementsAndAttributesOfForeignNamespaces) {
+  Plate plate;
+  plate.attributes +=
+      R"( xmlns:x="urn:foreign" xmlns:k="http://schemas.microsoft.com/3dmanufacturing/core/2015/02")";
+  plate.resources = std::string(R"(<x:object/><k:object x:id="7" x:type="support" id="1">)") +
+                    kTetrahedron + "</k:object><x:data><x:vertex/></x:data>";
+  plate.items =
+      R"(<item x:transform="9 0 0 0 9 0 0 0 9 0 0 0" x:objectid="7" objectid="1"/><x:item/>)";
+  const Model model = plate.parsed();
+  ASSERT_EQ(model.mesh.positions.size(), 4U);
+  EXPECT_EQ(model.mesh.positions[1], Vec3(2.0, 0.0, 0.0));
+  EXPECT_THAT(model.notes, IsEmpty());
+}
+
 TEST(Threemf, IsFoundByItsContentUnderAnyName) {
   EXPECT_EQ(parse_model(Plate().bytes(), "a.bin").format, ModelFormat::Threemf);
 }
