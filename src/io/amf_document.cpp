@@ -288,22 +288,14 @@ void AmfDocument::colour_volumes() {
 }
 
 void AmfDocument::join_instances() {
-  std::vector<bool> is_shown(part_.objects.size() + 1);
   for (const Instance& instance : instances_) {
     const auto found = objects_.find(instance.wanted);
     if (found == objects_.end()) {
       fail("an instance names object " + in_quotes(instance.wanted) + ", which does not exist");
     }
     part_.objects[instance.object].components[instance.component].object = found->second;
-    is_shown[found->second] = true;
   }
-  const bool is_any_whole = std::any_of(part_.objects.begin(), part_.objects.end(),
-                                        [&](const auto& entry) { return !is_shown[entry.first]; });
-  for (const auto& [number, object] : part_.objects) {
-    if (!is_any_whole || !is_shown[number]) {
-      part_.items.push_back({{}, number, unmoved()});
-    }
-  }
+  part_.items = uses_of_wholes(part_);
 }
 
 }  // namespace vantage

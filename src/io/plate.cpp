@@ -9,32 +9,44 @@
 #include "io/reuse_budget.h"
 
 namespace vantage {
-namespace {
 
-/// Each object of a part that is no component of another there; all of them where none is left, so that
-/// objects that hold each other are refused as ever.
 std::vector<PlateUse> uses_of_wholes(const PlatePart& part) {
-  std::set<std::uint32_t> components;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> components;  // of the part itself
+  std::set<std::uint32_t> held;
   for (const auto& [id, object] : part.objects) {
     for (const PlateUse& use : object.components) {
       if (use.part.empty()) {
-        components.insert(use.object);
+        components[id].push_back(use.object);
+        held.insert(use.object);
       }
     }
   }
-  const bool is_any_whole =
-      std::any_of(part.objects.begin(), part.objects.end(),
-                  [&](const auto& entry) { return !components.contains(entry.first); });
   std::vector<PlateUse> uses;
+  std::set<std::uint32_t> reached;
+  const auto add = [&](std::uint32_t whole) {
+    uses.push_back({{}, whole, unmoved()});
+    std::vector<std::uint32_t> waiting{whole};
+    while (!waiting.empty()) {
+      const std::uint32_t id = waiting.back();
+      waiting.pop_back();
+      if (reached.insert(id).second) {
+        const std::vector<std::uint32_t>& below = components[id];
+        waiting.insert(waiting.end(), below.begin(), below.end());
+      }
+    }
+  };
   for (const auto& [id, object] : part.objects) {
-    if (!is_any_whole || !components.contains(id)) {
-      uses.push_back({{}, id, unmoved()});
+    if (!held.contains(id)) {
+      add(id);
+    }
+  }
+  for (const auto& [id, object] : part.objects) {
+    if (!reached.contains(id)) {
+      add(id);
     }
   }
   return uses;
 }
-
-}  // namespace
 
 PlateReader::PlateReader(const PlateParts& parts, std::size_t file_bytes, std::size_t most_faces,
                          ModelBuilder& builder)
@@ -70,6 +82,14 @@ void PlateReader::read(const std::string& root) {
   if (part.unit != "millimeter") {
     builder_.note("the file's unit is the " + in_quotes(part.unit) +
                   "; coordinates are in that unit, as they stand there");
+  }
+  const auto other = std::find_if(parts_.begin(), parts_.end(), [&](const auto& entry) {
+    return entry.second.unit != part.unit;
+  });
+  if (other != parts_.end()) {
+    builder_.note("part " + in_quotes(other->first) + " has the unit " +
+                  in_quotes(other->second.unit) + ", the model " + in_quotes(part.unit) +
+                  "; coordinates are put side by side as they stand there");
   }
 }
 

@@ -65,9 +65,14 @@ struct PlatePart {
   bool needs_double = false;          ///< Coordinates say more than a float holds.
   std::size_t unprinted = 0;          ///< Items that are not to be printed.
   bool has_unread_materials = false;  ///< Textures or mixtures.
+  bool has_corner_colours = false;    ///< Triangles whose corners differ.
   /// Extensions that the part needs and nobody reads here: the ends of their namespaces.
   std::vector<std::string> unread_extensions{};
 };
+
+/// Each object of a part that is no component of another there. Of objects that only hold each other one, so that
+/// they are refused as ever.
+std::vector<PlateUse> uses_of_wholes(const PlatePart& part);
 
 /// By name.
 using PlateParts = std::map<std::string, PlatePart, std::less<>>;

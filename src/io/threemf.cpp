@@ -147,14 +147,19 @@ Model parse_threemf(std::string_view bytes, std::string_view name, const RunCont
     builder.fail("names the part " + in_quotes(root) + ", which is not in the archive");
   }
   bool has_unread_materials = false;
+  bool has_corner_colours = false;
   for (const auto& [part_name, part] : parts) {
     if (part.needs_double) {
       builder.coordinates_need_double();
     }
     has_unread_materials = has_unread_materials || part.has_unread_materials;
+    has_corner_colours = has_corner_colours || part.has_corner_colours;
   }
   if (has_unread_materials && builder.keeps_appearance()) {
     builder.note("textures and mixed materials left out; colours are read");
+  }
+  if (has_corner_colours && builder.keeps_appearance()) {
+    builder.note("colours of corners left out: a triangle has that of its first");
   }
   PlateReader reader(parts, bytes.size(), surroundings.options.max_faces, builder);
   reader.read(root);

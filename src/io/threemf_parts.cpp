@@ -216,6 +216,11 @@ class ThreemfPartReader::State : public XmlReader {
     const auto group = attributes.index("pid");
     object_->materials.push_back(colour ? material_at(group ? group : object_colours_, colour)
                                         : object_material_);
+    if (colour && object_->materials.back() != Appearance::kNone) {
+      part_.has_corner_colours = part_.has_corner_colours ||
+                                 attributes.index("p2").value_or(*colour) != *colour ||
+                                 attributes.index("p3").value_or(*colour) != *colour;
+    }
   }
 
   PlateUse use(const XmlAttributes& attributes) {
@@ -230,12 +235,14 @@ class ThreemfPartReader::State : public XmlReader {
     use.transform = unmoved();
     if (const auto text = attributes.text("transform")) {
       TextCursor numbers(*text);
+      bool is_sound = true;
       for (Eigen::Index i = 0; i < use.transform.size(); ++i) {
         const std::optional<double> value = number_from(numbers.next_token());
-        if (!value || !(std::abs(*value) <= kLargestCoordinate)) {
-          fail("a transform is not 12 finite numbers: " + in_quotes(*text));
-        }
-        use.transform(i / 3, i % 3) = *value;
+        is_sound = is_sound && value && std::abs(*value) <= kLargestCoordinate;
+        use.transform(i / 3, i % 3) = value.value_or(0.0);
+      }
+      if (!is_sound || !numbers.next_token().empty()) {
+        fail("a transform is not 12 finite numbers: " + in_quotes(*text));
       }
     }
     return use;

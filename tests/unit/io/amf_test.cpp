@@ -261,6 +261,10 @@ TEST(AmfError, SaysWhatIsWrongAndWhere) {
               HasSubstr("names object '7', which does not exist"));
   EXPECT_THAT(amf_error(R"(<constellation id="2"><instance objectid="2"/></constellation>)"),
               HasSubstr("is a component of itself"));
+  EXPECT_THAT(
+      amf_error(solid("1") + R"(<constellation id="2"><instance objectid="3"/></constellation>)"
+                             R"(<constellation id="3"><instance objectid="2"/></constellation>)"),
+      HasSubstr("is a component of itself"));
   EXPECT_THAT(amf_error(""), HasSubstr("holds no triangles"));
   EXPECT_THAT(amf_error(object("1", mesh(kAmfCorners, ""))), HasSubstr("holds no triangles"));
   EXPECT_THAT(amf_error(volume(kAmfSides)), HasSubstr("belongs to no object"));

@@ -191,6 +191,16 @@ TEST(Threemf, KeepsTheFilesUnitAndNamesIt) {
   EXPECT_THAT(model.notes, Contains(HasSubstr("inch")));
 }
 
+TEST(Threemf, NotesAPartOfAnotherUnit) {
+  Plate other;
+  other.attributes = R"(unit="inch")";
+  Plate plate;
+  plate.items = R"(<item objectid="1"/><item objectid="1" p:path="/3D/b.model"/>)";
+  plate.more = {{"3D/b.model", other.model()}};
+  EXPECT_THAT(plate.parsed().notes,
+              ElementsAre(HasSubstr("part '3d/b.model' has the unit 'inch'")));
+}
+
 TEST(Threemf, LeavesSupportsOut) {
   Plate plate;
   plate.resources += std::string(R"(<object id="2" type="support">)") + kTetrahedron + "</object>";
@@ -236,6 +246,8 @@ TEST(ThreemfError, RefusesObjectsThatHoldEachOtherInAFileThatBuildsNothing) {
   plate.resources = R"(<object id="2"><components><component objectid="3"/></components></object>)"
                     R"(<object id="3"><components><component objectid="2"/></components></object>)";
   plate.items.clear();
+  EXPECT_THAT(plate.error(), HasSubstr("component of itself"));
+  plate.resources += Plate().resources;  // though it is whole
   EXPECT_THAT(plate.error(), HasSubstr("component of itself"));
 }
 
@@ -318,6 +330,13 @@ TEST(Threemf, NotesTexturesThatItDoesNotRead) {
       R"(<triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
   EXPECT_THAT(plate.parsed(true).notes, Contains(HasSubstr("textures and mixed materials")));
   EXPECT_THAT(plate.parsed(false).notes, IsEmpty());
+  const std::string group =
+      R"(<m:colorgroup id="8"><m:color color="#FF0000"/><m:color color="#00FF00"/></m:colorgroup>)";
+  plate.resources.replace(0, plate.resources.find("<object"), group);
+  plate.resources.insert(plate.resources.find(R"("2"/></triangles)") + 3, R"( p1="0" p2="0")");
+  EXPECT_THAT(plate.parsed(true).notes, IsEmpty());
+  plate.resources.insert(plate.resources.find(R"(/></triangles)"), R"( p3="1")");
+  EXPECT_THAT(plate.parsed(true).notes, Contains(HasSubstr("colours of corners")));
 }
 
 TEST(ThreemfError, NamesThePartAndTheLineOfAMissingVertex) {
@@ -438,10 +457,12 @@ TEST(ThreemfError, RefusesNumbersThatAreNone) {
   }
 }
 
-TEST(ThreemfError, RefusesATransformOfElevenNumbers) {
+TEST(ThreemfError, RefusesATransformOfElevenNumbersOrThirteen) {
   Plate plate;
-  plate.items = R"(<item objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0"/>)";
-  EXPECT_THAT(plate.error(), HasSubstr("12 finite numbers"));
+  for (const std::string numbers : {"1 0 0 0 1 0 0 0 1 0 0", "1 0 0 0 1 0 0 0 1 0 0 0 1"}) {
+    plate.items = R"(<item objectid="1" transform=")" + numbers + "\"/>";
+    EXPECT_THAT(plate.error(), HasSubstr("12 finite numbers")) << numbers;
+  }
 }
 
 TEST(ThreemfError, IsOneSentenceWhereverTheArchiveIsCutInItsModel) {
