@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Containers nested deeper than this are no glTF: the format itself needs 7 levels.
+/// Containers nested deeper than this are not read: the format itself needs 7 levels.
 constexpr int kDeepestNesting = 64;
 
 struct Chunks {
@@ -108,7 +108,9 @@ void check_nesting(std::string_view json, const ModelBuilder& builder) {
       --depth;
     }
     if (depth > kDeepestNesting) {
-      builder.fail({"byte", i}, "the JSON is nested deeper than any glTF");
+      builder.fail({"byte", i}, "the JSON is nested deeper than " +
+                                    std::to_string(kDeepestNesting) +
+                                    " levels, the most that are read");
     }
   }
 }
@@ -236,6 +238,11 @@ void check_version(const Json& root, const ModelBuilder& builder) {
   if (text != "2" && !text.starts_with("2.")) {
     builder.fail("is glTF version " + in_quotes(text) + only_two(text));
   }
+  const Json least = asset->value("minVersion", Json());
+  if (least.is_string() && number_from(least.get_ref<const std::string&>()).value_or(2.0) > 2.0) {
+    builder.fail("needs glTF version " + in_quotes(least.get_ref<const std::string&>()) +
+                 ", only 2.0 is read");
+  }
 }
 
 SharedBytes shared(std::string bytes) {
@@ -256,7 +263,7 @@ SharedBytes read_buffer(const Json& buffer, std::size_t index, const Chunks& chu
     builder.fail("the URI of " + label + " is not text");
   }
   const auto& uri = entry->get_ref<const std::string&>();
-  if (uri.substr(0, 5) == "data:") {
+  if (is_data_uri(uri)) {
     std::optional<std::string> data = decode_data_uri(uri);
     if (!data) {
       builder.fail("the data URI of " + label + " is not well formed base64 or percent-encoding");

@@ -222,7 +222,7 @@ class MaterialReader {
       return image_there;
     }
     const auto& text = uri.get_ref<const std::string&>();
-    if (text.substr(0, 5) == "data:") {
+    if (is_data_uri(text)) {
       const std::optional<std::string> data = decode_data_uri(text);
       if (!data) {
         loader_.complain(label, "is not well formed base64 or percent-encoding");

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_uri.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "io/text_cursor.h"
 
 namespace vantage {
 namespace {
@@ -45,27 +49,43 @@ std::optional<std::string> decode_base64(std::string_view text) {
   return bytes;
 }
 
-bool climbs(std::string_view path) {
-  std::size_t begin = 0;
-  while (begin <= path.size()) {
+/// Without "." and ".."; none if it leads out of the folder, or to the folder itself.
+std::optional<std::string> normalised(std::string_view path) {
+  std::vector<std::string_view> names;
+  for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find('/', begin), path.size());
-    if (path.substr(begin, end - begin) == "..") {
-      return true;
+    const std::string_view name = path.substr(begin, end - begin);
+    if (name == ".." && names.empty()) {
+      return std::nullopt;
+    }
+    if (name == "..") {
+      names.pop_back();
+    } else if (!name.empty() && name != ".") {
+      names.push_back(name);
     }
     begin = end + 1;
   }
-  return false;
+  std::string joined;
+  for (const std::string_view name : names) {
+    joined += (joined.empty() ? "" : "/") + std::string(name);
+  }
+  return joined.empty() ? std::nullopt : std::optional(std::move(joined));
 }
 
 }  // namespace
 
+bool is_data_uri(std::string_view uri) {
+  return lower_case(uri.substr(0, 5)) == "data:";
+}
+
 std::optional<std::string> decode_data_uri(std::string_view uri) {
   const std::size_t comma = uri.find(',');
-  if (!uri.starts_with("data:") || comma == std::string_view::npos) {
+  if (!is_data_uri(uri) || comma == std::string_view::npos) {
     return std::nullopt;
   }
-  const std::string_view data = uri.substr(comma + 1);
-  return uri.substr(0, comma).ends_with(";base64") ? decode_base64(data) : decode_percent(data);
+  std::optional<std::string> data = decode_percent(uri.substr(comma + 1));
+  return data && lower_case(uri.substr(0, comma)).ends_with(";base64") ? decode_base64(*data)
+                                                                       : data;
 }
 
 std::optional<std::string> decode_percent(std::string_view text) {
@@ -89,14 +109,14 @@ std::optional<std::string> decode_percent(std::string_view text) {
 }
 
 std::optional<std::string> relative_path_of_uri(std::string_view uri) {
-  std::optional<std::string> path = decode_percent(uri);
+  const std::optional<std::string> path = decode_percent(uri);
   // A colon before the first slash is a scheme (http:, file:) or a drive (C:).
-  if (!path || path->empty() || path->front() == '/' || climbs(*path) ||
+  if (!path || path->starts_with('/') ||
       path->substr(0, path->find('/')).find(':') != std::string::npos ||
       path->find('\\') != std::string::npos || path->find('\0') != std::string::npos) {
     return std::nullopt;
   }
-  return std::filesystem::path(*path).lexically_normal().string();
+  return normalised(*path);
 }
 
 }  // namespace vantage
