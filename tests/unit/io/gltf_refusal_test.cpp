@@ -115,7 +115,8 @@ TEST(Gltf, CountsTheJointsOfEachSet) {
   scene.primitive = R"({"attributes":{"POSITION":0)";
   for (int set = 0; set < 20; ++set) {
     const std::string number = std::to_string(set);
-    scene.primitive += ",\"JOINTS_" + number + "\":2,\"WEIGHTS_" + number + "\":3";
+    scene.primitive.append(R"(,"JOINTS_)").append(number).append(R"(":2,"WEIGHTS_)");
+    scene.primitive.append(number).append(R"(":3)");
   }
   scene.primitive += R"(},"indices":1,"mode":5})";
   scene.accessors =
