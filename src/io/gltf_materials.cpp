@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "io/gltf_json.h"
@@ -178,24 +179,23 @@ class MaterialReader {
     if (!source.is_object()) {
       return std::nullopt;
     }
-    const auto key = index.get<std::size_t>();
-    if (const auto known = known_.find(key); known != known_.end()) {
-      return known->second;
-    }
-    std::optional<std::uint32_t>& place = known_[key];
     const Json& plain = member(source, "source");
     const Json& image_index = plain.is_number_unsigned()
                                   ? plain
                                   : member(extension(source, "EXT_texture_webp"), "source");
-    std::optional<Image> image = picture(image_index);
+    const Json& sampler = item(root_, "samplers", member(source, "sampler"));
+    constexpr double kNearest = 9728.0;
+    const TextureWrap wrap_u = wrap_of(sampler, "wrapS");
+    const TextureWrap wrap_v = wrap_of(sampler, "wrapT");
+    const bool nearest = number(member(sampler, "magFilter"), 0.0) == kNearest;
+    const auto [known, is_new] =
+        known_.try_emplace({&item(root_, "images", image_index), wrap_u, wrap_v, nearest});
+    std::optional<Image> image = is_new ? picture(image_index) : std::nullopt;
     if (image) {
-      const Json& sampler = item(root_, "samplers", member(source, "sampler"));
-      constexpr double kNearest = 9728.0;
-      place = static_cast<std::uint32_t>(textures_.size());
-      textures_.push_back({std::move(*image), wrap_of(sampler, "wrapS"), wrap_of(sampler, "wrapT"),
-                           number(member(sampler, "magFilter"), 0.0) == kNearest});
+      known->second = static_cast<std::uint32_t>(textures_.size());
+      textures_.push_back({std::move(*image), wrap_u, wrap_v, nearest});
     }
-    return place;
+    return known->second;
   }
 
   std::optional<Image> picture(const Json& index) {
@@ -242,7 +242,9 @@ class MaterialReader {
   const GltfDocument& document_;
   TextureLoader loader_;
   std::vector<Texture> textures_{};
-  std::map<std::size_t, std::optional<std::uint32_t>> known_{};
+  /// By image and how it is sampled.
+  std::map<std::tuple<const Json*, TextureWrap, TextureWrap, bool>, std::optional<std::uint32_t>>
+      known_{};
   std::set<const char*> useless_{};  ///< Where bytes of buffers begin that gave no picture.
 };
 

@@ -209,6 +209,22 @@ TEST(GltfAppearance, TriesAPictureThatIsNoneOnce) {
   EXPECT_THAT(model.notes, ElementsAre(HasSubstr("'no.png' was left out")));
 }
 
+TEST(GltfAppearance, AnImageOfManyTexturesIsOneUnlessItIsSampledOtherwise) {
+  std::string materials;
+  for (int i = 0; i < 3; ++i) {
+    materials += (i == 0 ? "" : ",") +
+                 (R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":)" + std::to_string(i)) +
+                 "}}}";
+  }
+  std::string parts = green_part();
+  const std::string one = R"({"source":0,"sampler":0})";
+  parts.replace(parts.find(one), one.size(), one + "," + one + R"(,{"source":0})");
+  const Appearance a = parse_model(gltf(materials, parts), "a.gltf", {}, kAll).appearance;
+  EXPECT_EQ(a.textures.size(), 2U);
+  EXPECT_EQ(a.materials.at(1).texture, 0U);
+  EXPECT_EQ(a.materials.at(2).texture, 1U);
+}
+
 TEST(TextureLoader, CountsThePixelsOfDamagedPicturesToo) {
   constexpr int kSide = 64;
   constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
