@@ -2,8 +2,8 @@
 #include "vantage/significance/kssm.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -106,17 +106,38 @@ Evidence evidence_of(const SecondMesh& second) {
   return evidence;
 }
 
-/// The weight of each level, by the correlation r of its displacements with those of the surface meshed
-/// anew: 0 up to r = least, 1 from r = (1 + least) / 2 on, linear between. Two meshes may agree by chance:
-/// r is taken with the largest variance of the difference at this level or an earlier one. What was not
-/// meshed anew has no say. If nothing was, all later levels weigh alike: by the share of the area in
-/// components of too few vertices for another mesh. Level 0 has weight 1. [ours]
+/// The correlation r of each level's displacements with those of the surface meshed anew. Two meshes may
+/// agree by chance: r is taken with the largest variance of the difference at this level or an earlier one.
+/// \param area by which the second mesh's vertices count.
+std::vector<double> correlations(const SecondMesh& second, const std::vector<double>& area,
+                                 const CurveGraph& skeleton, const CurveGraph& other,
+                                 const RunContext& run) {
+  const GraphDistance to_first(skeleton);
+  const GraphDistance to_second(other);
+  std::vector<double> r;
+  std::vector<double> difference(area.size());
+  double noise = 0.0;
+  for (std::size_t level = 0; level < second.here.size(); ++level) {
+    const std::vector<double> by_first = distances(second.here[level], to_first, run);
+    const std::vector<double> by_second = distances(second.there[level], to_second, run);
+    std::transform(by_first.begin(), by_first.end(), by_second.begin(), difference.begin(),
+                   std::minus<>());
+    noise = std::max(noise, variance(difference, area));
+    const double signal = std::min(variance(by_first, area), variance(by_second, area));
+    // Where both vary alike, this is their correlation.
+    r.push_back(signal > 0.0 ? 1.0 - 0.5 * noise / signal : 1.0);
+  }
+  return r;
+}
+
+/// The weight of each level: 0 up to a correlation of r = least, 1 from r = (1 + least) / 2 on, linear
+/// between. What was not meshed anew has no say. If nothing was, all later levels weigh alike: by the share
+/// of the area in components of too few vertices for another mesh. Level 0 has weight 1. [ours]
 std::vector<double> level_weights(const ContractionHistory& history, const CurveGraph& skeleton,
                                   const CurveGraph& other, double least, const RunContext& run) {
   std::vector<double> weights(history.levels.size(), 1.0);
   const SecondMesh& second = history.second;
   const Evidence evidence = evidence_of(second);
-  const std::vector<double>& area = evidence.area;
   const double untested = evidence.none + evidence.hardly;
   if (other.nodes.empty() || !(least > 0.0) || second.here.size() != weights.size() ||
       !(evidence.tested + untested > 0.0)) {
@@ -126,29 +147,13 @@ std::vector<double> level_weights(const ContractionHistory& history, const Curve
     std::fill(weights.begin() + 1, weights.end(), evidence.none / untested);
     return weights;
   }
-  const GraphDistance to_first(skeleton);
-  const GraphDistance to_other(other);
-  std::vector<double> here(area.size());
-  std::vector<double> there(area.size());
-  std::vector<double> difference(area.size());
   const double full = kRamp * (1.0 - least);
-  double noise = 0.0;
-  for (std::size_t level = 0; level < weights.size(); ++level) {
-    parallel_for(run, area.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        here[i] = to_first(second.here[level][i]);
-        there[i] = to_other(second.there[level][i]);
-        difference[i] = here[i] - there[i];
-      }
-    });
-    noise = std::max(noise, variance(difference, area));
-    const double signal = std::min(variance(here, area), variance(there, area));
-    // 1 − noise / 2 signal is the correlation where both vary alike.
-    const double surplus = signal > 0.0 ? 1.0 - 0.5 * noise / signal - least : 1.0 - least;
+  const std::vector<double> r = correlations(second, evidence.area, skeleton, other, run);
+  for (std::size_t level = 1; level < weights.size(); ++level) {
+    const double surplus = r[level] - least;
     const double unramped = surplus >= 0.0 ? 1.0 : 0.0;
     weights[level] = full > 0.0 ? std::clamp(surplus / full, 0.0, 1.0) : unramped;
   }
-  weights.front() = 1.0;
   return weights;
 }
 
@@ -224,30 +229,32 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
   map.of_vertex.assign(vertex_count, 0.0);
   const std::vector<double> level_weight =
       level_weights(history, skeleton, other, options.level_agreement, run);
-  map.level_factor.assign(velocity ? 1 : 0, 0.0);  // no step led to the input
-  for (std::size_t j = velocity ? 1 : 0; j < map.displacement.size(); ++j) {
-    // A velocity is as good as the displacement that it starts from. The input is always resolved.
-    const std::size_t source = velocity ? j - 1 : j;
-    if (source > 0 &&
-        (!(level_weight[source] > 0.0) ||
-         !(span_of(map.displacement[source], referenced) > options.flat_level * diameter))) {
-      map.level_factor.push_back(0.0);
+  // The input is always resolved.
+  const auto is_resolved = [&](std::size_t level) {
+    return level == 0 ||
+           (level_weight[level] > 0.0 &&
+            span_of(map.displacement[level], referenced) > options.flat_level * diameter);
+  };
+  // A velocity is as good as the displacement that it starts from; no step led to the input.
+  const std::size_t lag = velocity ? 1 : 0;
+  map.level_factor.assign(map.displacement.size(), 0.0);
+  for (std::size_t level = lag; level < map.displacement.size(); ++level) {
+    if (!is_resolved(level - lag)) {
       continue;
     }
-    const NormalisedField level =
-        normalised_level(map.displacement, j, options.kinematics, referenced, diameter);
-    if (level.flat) {
-      map.level_factor.push_back(0.0);
+    const NormalisedField field =
+        normalised_level(map.displacement, level, options.kinematics, referenced, diameter);
+    if (field.flat) {
       continue;
     }
-    const double mean = by_rings ? mean_of_local_maxima(level, rings, weight)
-                                 : mean_without_maximum(level, referenced, weight);
+    const double mean = by_rings ? mean_of_local_maxima(field, rings, weight)
+                                 : mean_without_maximum(field, referenced, weight);
     // Φ of the paper, on normalised values
-    const double factor = level_weight[source] * (1.0 - mean) * (1.0 - mean);
-    map.level_factor.push_back(factor);
-    map.levels_used.push_back(j);
+    const double factor = level_weight[level - lag] * (1.0 - mean) * (1.0 - mean);
+    map.level_factor[level] = factor;
+    map.levels_used.push_back(level);
     for (std::size_t v = 0; v < vertex_count; ++v) {
-      map.of_vertex[v] += factor * level.values[v];
+      map.of_vertex[v] += factor * field.values[v];
     }
   }
   return map;
