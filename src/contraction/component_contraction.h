@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,22 @@
 
 namespace vantage {
 
+/// Which method contracted a component.
+struct ContractionStrategy {
+  std::string method{"exact"};  ///< Or "direct", "points", "proxy" and its vertices.
+  std::size_t refined_to = 0;   ///< Vertices of the finer surface that the method began with, or 0.
+  std::size_t finer_copy = 0;   ///< Vertices of the one that was contracted instead at last, or 0.
+  bool is_thinned = false;      ///< Contracted further for the skeleton alone.
+};
+
 /// The levels of one connected surface without isolated vertices, in its own scaled frame.
 struct ComponentHistory {
   std::vector<std::vector<Vec3>> levels{};  ///< Scaled positions; level 0 is the input.
   std::vector<double> shrinkage{};          ///< [a_t] per level.
   std::vector<Vec3>
       thinned{};  ///< What ContractionHistory::thinned has of it; empty: the last level.
-  ComponentContraction summary{};
+  ComponentContraction summary{};  ///< Without what is said of `strategy`.
+  ContractionStrategy strategy{};
   bool is_stuck = false;     ///< Ended far from a curve because no way to take a step was sound.
   bool was_unsound = false;  ///< An early step was not sound as it is defined.
 };

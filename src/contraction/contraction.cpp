@@ -34,7 +34,6 @@ struct PieceResult {
   ComponentHistory history{};
   std::optional<Proxy> proxy{};  ///< What `history` is of, if not of the piece itself.
   SecondMesh second{};           ///< The same meshed anew.
-  bool is_thinned = false;       ///< Whether it was, once `history` is placed and forgotten.
 };
 
 /// A surface in pieces.
@@ -44,6 +43,10 @@ struct CutSurface {
   /// Of the input's vertices, which come first: how many an even mesh of their component needs that
   /// splitting made too many of; 0 of other components. Empty: nothing was split.
   std::span<const std::size_t> even_size{};
+
+  [[nodiscard]] bool is_refined(const Piece& piece) const {
+    return !even_size.empty() && piece.vertices.back() >= even_size.size();
+  }
 
   /// How large a proxy of the piece should be; 0 if it needs none.
   [[nodiscard]] std::size_t proxy_size(const Piece& piece,
@@ -92,6 +95,7 @@ PieceResult contract_piece(const CutSurface& cut, const Piece& piece,
     result.second = contract_second_mesh(result.proxy ? result.proxy->mesh : scaled, result.history,
                                          options, run.part(0.8, 1.0));
   }
+  result.history.strategy.refined_to = cut.is_refined(piece) ? n : 0;
   const auto to_model = [&scaling](std::vector<Vec3>& points) {
     for (Vec3& p : points) {
       p = scaling.unscaled(p);
@@ -137,7 +141,7 @@ void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
 void fill_thinned(const std::vector<PieceResult>& results, ContractionHistory& history) {
   for (std::size_t v = 0; v < history.thinned.size(); ++v) {
     const std::uint32_t piece = history.component_of_vertex[v];
-    if (piece == ContractionHistory::kIsolated || !results[piece].is_thinned) {
+    if (piece == ContractionHistory::kIsolated || !results[piece].history.strategy.is_thinned) {
       history.thinned[v] = history.levels.back()[v];
     }
   }
@@ -217,7 +221,7 @@ ContractionHistory contract_pieces(const TriMesh& mesh, std::span<const std::siz
     }
     result.proxy.reset();  // now in `history`; keeps the peak at what is contracted at once
     result.history.levels.clear();
-    result.is_thinned = !std::exchange(result.history.thinned, {}).empty();
+    std::exchange(result.history.thinned, {});
     results.push_back(std::move(result));
   };
   std::size_t done = 0;
@@ -252,21 +256,8 @@ ContractionHistory of_refined(const TriMesh& mesh, RefinedSurface surface,
   ContractionHistory history = contract_pieces(surface.mesh, surface.even_size, options, run);
   TriMesh& refined = surface.mesh;
   const std::size_t n = mesh.positions.size();
-  std::vector<std::size_t> added(history.components.size(), 0);
   for (std::size_t v = n; v < refined.positions.size(); ++v) {
-    ++added[history.component_of_vertex[v]];
-  }
-  for (std::size_t c = 0; c < added.size(); ++c) {
-    ComponentContraction& component = history.components[c];
-    if (added[c] > 0) {
-      const std::string refined_to = "refined " + std::to_string(component.vertices);
-      if (component.strategy.starts_with("direct")) {
-        component.strategy.replace(0, component.strategy.find(','), refined_to);
-      } else {
-        component.strategy = refined_to + ", " + component.strategy;
-      }
-      component.vertices -= added[c];
-    }
+    --history.components[history.component_of_vertex[v]].vertices;
   }
   ContractedRefinement all{std::move(refined), std::exchange(history.levels, {}),
                            std::exchange(history.component_of_vertex, {}),

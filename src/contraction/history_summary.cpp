@@ -10,6 +10,19 @@ namespace {
 /// Warnings about remedies at most.
 constexpr std::size_t kMostRemedies = 5;
 
+std::string words_of(const ContractionStrategy& strategy) {
+  const auto refined = [](std::size_t vertices) {
+    return vertices > 0 ? "refined " + std::to_string(vertices) + ", " : "";
+  };
+  const bool is_whole = strategy.refined_to == 0 && strategy.finer_copy == 0;
+  std::string words = refined(strategy.refined_to);
+  words += strategy.method == "direct" && !is_whole ? "" : strategy.method + ", ";
+  words += refined(strategy.finer_copy);
+  words += strategy.is_thinned ? "thinned, " : "";
+  words.resize(words.size() - 2);
+  return words;
+}
+
 /// What was not done as defined, one sentence each; of many components only the first.
 void add_remedies(ContractionHistory& history) {
   std::size_t told = 0;
@@ -47,6 +60,7 @@ void summarise(std::span<const ComponentHistory* const> parts, ContractionHistor
     }
     failed += part->summary.stop == ContractionStop::SolverFailed ? 1 : 0;
     history.components.push_back(part->summary);
+    history.components.back().strategy = words_of(part->strategy);
     history.components.back().shrinkage = part->shrinkage.back();
   }
   for (double& a : history.shrinkage) {

@@ -117,7 +117,7 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
                                           const RunContext& run) {
   ComponentHistory history;
   history.summary.vertices = scaled.size();
-  history.summary.strategy = "points";
+  history.strategy.method = "points";
   history.levels.push_back(scaled);
   history.shrinkage.push_back(1.0);
   const EdgeLengths start = measure(scaled, rings);

@@ -23,9 +23,6 @@ constexpr int kMostAgain = 3;
 constexpr std::size_t kEvenCopy = 5'000;
 constexpr std::size_t kFewestEven = 500;
 
-/// Ends the strategy of what was contracted further for the skeleton alone.
-constexpr const char* kThinned = ", thinned";
-
 /// What the vertices of a surface count by; Cao's sums run over vertices.
 EvenShares shares_of(const TriMesh& mesh, const ContractionOptions& options) {
   return options.weights == ContractionWeights::Vertex ? EvenShares{} : even_shares(mesh);
@@ -114,13 +111,12 @@ std::optional<Alternative> contract_carefully(const TriMesh& scaled, const Compo
   if (careful.is_stuck && careful.shrinkage.back() >= before.shrinkage.back()) {
     return std::nullopt;
   }
-  careful.summary.strategy = before.summary.strategy;
   return Alternative{std::move(careful),
                      "all steps were taken anew with weights that thin triangles do not upset"};
 }
 
 /// A copy with fewer vertices and evener triangles: thin ones throw parts of a surface about.
-std::optional<Alternative> contract_even_copy(const TriMesh& scaled, const ComponentHistory& before,
+std::optional<Alternative> contract_even_copy(const TriMesh& scaled, const ComponentHistory&,
                                               const ContractionOptions& options,
                                               const RunContext& run) {
   const auto most =
@@ -139,7 +135,6 @@ std::optional<Alternative> contract_even_copy(const TriMesh& scaled, const Compo
     level = carried(proxy, level, run);
   }
   copy.levels.front() = scaled.positions;
-  copy.summary.strategy = before.summary.strategy;
   return Alternative{std::move(copy), "a copy of " + std::to_string(proxy.mesh.positions.size()) +
                                           " vertices with evener triangles was contracted instead"};
 }
@@ -160,11 +155,9 @@ std::optional<Alternative> contract_finer_copy(const TriMesh& scaled,
   for (auto& level : copy.levels) {
     level.resize(scaled.positions.size());
   }
-  const std::string size = std::to_string(finer.positions.size());
-  const std::string& former = before.summary.strategy;
-  copy.summary.strategy = (former == "direct" ? "" : former + ", ") + "refined " + size;
-  return Alternative{std::move(copy),
-                     "a finer copy of " + size + " vertices was contracted instead"};
+  copy.strategy.finer_copy = finer.positions.size();
+  return Alternative{std::move(copy), "a finer copy of " + std::to_string(finer.positions.size()) +
+                                          " vertices was contracted instead"};
 }
 
 bool is_stuck(const ComponentHistory& history, const TriMesh&, const ContractionOptions&) {
@@ -209,6 +202,7 @@ void mend(ComponentHistory& history, const TriMesh& scaled, const ContractionOpt
             kFallbacks[k].contract(scaled, history, options, part)) {
       std::vector<std::string> remedies = std::move(history.summary.remedies);
       remedies.push_back(std::move(alternative->remedy));
+      alternative->history.strategy.method = std::move(history.strategy.method);
       history = std::move(alternative->history);
       history.thinned.clear();
       std::vector<std::string>& own = history.summary.remedies;
@@ -224,7 +218,7 @@ ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Pro
   ComponentHistory history;
   if (proxy) {
     history = contract_by(proxy->mesh, options, run.part(0.0, 0.7));
-    history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size());
+    history.strategy.method = "proxy " + std::to_string(proxy->mesh.positions.size());
     if (history.is_stuck) {
       mend(history, proxy->mesh, options, run.part(0.7, 1.0));
     }
@@ -233,12 +227,12 @@ ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Pro
       history = contract_exactly(scaled, options, run.part(0.0, 0.7));
     } else {
       history = contract_by(scaled, without_thinning(options), run.part(0.0, 0.7));
-      history.summary.strategy = "direct";
+      history.strategy.method = "direct";
     }
     mend(history, scaled, options, run.part(0.7, 1.0));
   }
   history.summary.vertices = scaled.positions.size();
-  history.summary.strategy += history.thinned.empty() ? "" : kThinned;
+  history.strategy.is_thinned = !history.thinned.empty();
   return history;
 }
 
