@@ -12,7 +12,7 @@
 
 #include "contraction/component_contraction.h"
 #include "contraction/component_scaling.h"
-#include "contraction/history_summary.h"
+#include "contraction/history_builder.h"
 #include "contraction/hole_filling.h"
 #include "contraction/missing_triangles.h"
 #include "contraction/proxy.h"
@@ -29,17 +29,9 @@ namespace {
 /// refinement.cpp. [ours]
 constexpr std::size_t kTogether = 60'000;
 
-/// What one piece's contraction gave, in model units.
-struct PieceResult {
-  ComponentHistory history{};
-  std::optional<Proxy> proxy{};  ///< What `history` is of, if not of the piece itself.
-  SecondMesh second{};           ///< The same meshed anew.
-};
-
-/// A surface in pieces.
+/// A surface that is cut into pieces.
 struct CutSurface {
   const TriMesh& mesh;
-  std::vector<Piece> pieces{};
   /// Of the input's vertices, which come first: how many an even mesh of their component needs that
   /// splitting made too many of; 0 of other components. Empty: nothing was split.
   std::span<const std::size_t> even_size{};
@@ -110,64 +102,6 @@ PieceResult contract_piece(const CutSurface& cut, const Piece& piece,
   return result;
 }
 
-/// Writes a piece's levels into the history of all vertices, adding levels as needed.
-void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
-           const RunContext& run, ContractionHistory& history) {
-  const auto& levels = result.history.levels;
-  while (history.levels.size() < levels.size()) {
-    history.levels.push_back(history.levels.empty() ? mesh.positions : history.levels.back());
-  }
-  const auto carry = [&](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
-    std::vector<Vec3> fine;
-    if (result.proxy) {
-      fine = carried(*result.proxy, from, run);
-    }
-    const std::vector<Vec3>& here = result.proxy ? fine : from;
-    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
-      to[piece.vertices[i]] = here[i];
-    }
-  };
-  // What takes no step stays at its exact input position.
-  for (std::size_t level = 1; levels.size() > 1 && level < history.levels.size(); ++level) {
-    carry(levels[std::min(level, levels.size() - 1)], history.levels[level]);
-  }
-  if (!result.history.thinned.empty()) {
-    history.thinned.resize(mesh.positions.size());
-    carry(result.history.thinned, history.thinned);
-  }
-}
-
-/// What was not thinned stands in `thinned` as at the last level, if it has anything.
-void fill_thinned(const std::vector<PieceResult>& results, ContractionHistory& history) {
-  for (std::size_t v = 0; v < history.thinned.size(); ++v) {
-    const std::uint32_t piece = history.component_of_vertex[v];
-    if (piece == ContractionHistory::kIsolated || !results[piece].history.strategy.is_thinned) {
-      history.thinned[v] = history.levels.back()[v];
-    }
-  }
-}
-
-/// Adds a piece as it was merged, or as it is. \pre merged.of_vertex has an entry for each vertex of the mesh.
-void add_piece(const Piece& piece, const std::optional<Proxy>& proxy, MergedSurface& merged) {
-  const auto first = static_cast<std::uint32_t>(merged.vertex_count);
-  for (std::uint32_t i = 0; i < piece.vertices.size(); ++i) {
-    merged.of_vertex[piece.vertices[i]] = first + (proxy ? proxy->merged.of_vertex[i] : i);
-  }
-  for (const Triangle& t : proxy ? proxy->merged.triangles : piece.triangles) {
-    merged.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  merged.vertex_count += proxy ? proxy->merged.vertex_count : piece.vertices.size();
-}
-
-/// Vertices that no face names stay alone.
-void add_isolated(const std::vector<std::uint32_t>& component_of_vertex, MergedSurface& merged) {
-  for (std::size_t v = 0; v < component_of_vertex.size(); ++v) {
-    if (component_of_vertex[v] == ContractionHistory::kIsolated) {
-      merged.of_vertex[v] = static_cast<std::uint32_t>(merged.vertex_count++);
-    }
-  }
-}
-
 /// The first pieces, as many as have kTogether vertices at most; at least one.
 std::span<const Piece> next_together(std::span<const Piece> pieces) {
   std::size_t count = 0;
@@ -196,58 +130,30 @@ std::vector<PieceResult> contract_together(const CutSurface& cut, std::span<cons
 
 ContractionHistory contract_pieces(const TriMesh& mesh, std::span<const std::size_t> even_size,
                                    const ContractionOptions& options, const RunContext& run) {
-  ContractionHistory history;
-  Pieces all = cut_into_pieces(mesh);
-  const CutSurface cut{.mesh = mesh, .pieces = std::move(all.all), .even_size = even_size};
-  const std::vector<Piece>& pieces = cut.pieces;
-  static_assert(Pieces::kIsolated == ContractionHistory::kIsolated);
-  history.component_of_vertex = std::move(all.of_vertex);
-  history.levels.push_back(mesh.positions);
-  std::vector<PieceResult> results;
-  results.reserve(pieces.size());
-  if (std::any_of(pieces.begin(), pieces.end(),
-                  [&](const Piece& piece) { return cut.proxy_size(piece, options) > 0; })) {
-    history.merged.emplace();
-    history.merged->of_vertex.resize(mesh.positions.size());
-    add_isolated(history.component_of_vertex, *history.merged);
-  }
-  const auto add = [&](const Piece& piece, PieceResult result) {
-    place(piece, result, mesh, run, history);
-    if (!result.second.levels.empty()) {
-      append(std::exchange(result.second, {}), history.second);
-    }
-    if (history.merged) {
-      add_piece(piece, result.proxy, *history.merged);
-    }
-    result.proxy.reset();  // now in `history`; keeps the peak at what is contracted at once
-    result.history.levels.clear();
-    std::exchange(result.history.thinned, {});
-    results.push_back(std::move(result));
-  };
-  std::size_t done = 0;
+  const CutSurface cut{.mesh = mesh, .even_size = even_size};
+  Pieces pieces = cut_into_pieces(mesh);
+  const bool has_proxies =
+      std::any_of(pieces.all.begin(), pieces.all.end(),
+                  [&](const Piece& piece) { return cut.proxy_size(piece, options) > 0; });
+  HistoryBuilder builder(mesh, std::move(pieces.of_vertex), has_proxies, run);
   const auto total = static_cast<double>(mesh.positions.size());
-  for (std::size_t first = 0; first < pieces.size();) {
-    const std::span<const Piece> together = next_together(std::span(pieces).subspan(first));
-    std::size_t after = done;
+  double done = 0.0;
+  for (std::span<const Piece> left(pieces.all); !left.empty();) {
+    const std::span<const Piece> together = next_together(left);
+    left = left.subspan(together.size());
+    double after = done;
     for (const Piece& piece : together) {
-      after += piece.vertices.size();
+      after += static_cast<double>(piece.vertices.size());
     }
-    for (PieceResult& result : contract_together(
-             cut, together, options,
-             run.part(static_cast<double>(done) / total, static_cast<double>(after) / total))) {
-      add(pieces[first++], std::move(result));
+    std::vector<PieceResult> results =
+        contract_together(cut, together, options, run.part(done / total, after / total));
+    for (std::size_t i = 0; i < together.size(); ++i) {
+      builder.add(together[i], std::move(results[i]));
     }
     done = after;
   }
-  fill_thinned(results, history);
-  std::vector<const ComponentHistory*> parts;
-  parts.reserve(results.size());
-  for (const PieceResult& result : results) {
-    parts.push_back(&result.history);
-  }
-  summarise(parts, history);
   run.advance("contracting", 1.0);
-  return history;
+  return std::move(builder).finish();
 }
 
 /// The history of the vertices of `mesh`, which come first in the refined surface.

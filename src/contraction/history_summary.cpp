@@ -47,21 +47,21 @@ void add_remedies(ContractionHistory& history) {
 
 }  // namespace
 
-void summarise(std::span<const ComponentHistory* const> parts, ContractionHistory& history) {
+void summarise(std::span<const ComponentHistory> parts, ContractionHistory& history) {
   std::size_t failed = 0;
   history.shrinkage.assign(history.levels.size(), 0.0);
   double vertices = 0.0;
-  for (const ComponentHistory* part : parts) {
-    const auto weight = static_cast<double>(part->summary.vertices);
+  for (const ComponentHistory& part : parts) {
+    const auto weight = static_cast<double>(part.summary.vertices);
     vertices += weight;
     for (std::size_t level = 0; level < history.levels.size(); ++level) {
       history.shrinkage[level] +=
-          weight * part->shrinkage[std::min(level, part->shrinkage.size() - 1)];
+          weight * part.shrinkage[std::min(level, part.shrinkage.size() - 1)];
     }
-    failed += part->summary.stop == ContractionStop::SolverFailed ? 1 : 0;
-    history.components.push_back(part->summary);
-    history.components.back().strategy = words_of(part->strategy);
-    history.components.back().shrinkage = part->shrinkage.back();
+    failed += part.summary.stop == ContractionStop::SolverFailed ? 1 : 0;
+    history.components.push_back(part.summary);
+    history.components.back().strategy = words_of(part.strategy);
+    history.components.back().shrinkage = part.shrinkage.back();
   }
   for (double& a : history.shrinkage) {
     a = vertices > 0.0 ? a / vertices : 1.0;

@@ -11,6 +11,6 @@ namespace vantage {
 /// vertices at each level of the history, and warnings of steps that were not taken as defined (each
 /// begins with "contraction") and of systems that could not be solved.
 /// \pre history.levels are there.
-void summarise(std::span<const ComponentHistory* const> parts, ContractionHistory& history);
+void summarise(std::span<const ComponentHistory> parts, ContractionHistory& history);
 
 }  // namespace vantage

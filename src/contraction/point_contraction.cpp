@@ -145,12 +145,7 @@ ContractionHistory contract_samples(const std::vector<Vec3>& points, const Point
     }
     levels.clear();  // they stand in the history
   }
-  std::vector<const ComponentHistory*> of_pieces;
-  of_pieces.reserve(parts.size());
-  for (const ComponentHistory& part : parts) {
-    of_pieces.push_back(&part);
-  }
-  summarise(of_pieces, history);
+  summarise(parts, history);
   return history;
 }
 

@@ -90,11 +90,11 @@ SecondMesh contract_second_mesh(const TriMesh& first, const ComponentHistory& hi
   result.remeshing = {is_hardly ? Remeshing::Hardly : Remeshing::Coarser};
   for (std::size_t level = 0; level < history.levels.size(); ++level) {
     const std::vector<Vec3>& at = result.levels[std::min(level, result.levels.size() - 1)];
-    auto& here = result.here.emplace_back();
-    auto& there = result.there.emplace_back();
+    auto& by_first = result.here.emplace_back();
+    auto& by_second = result.there.emplace_back();
     for (const std::uint32_t v : points) {
-      here.push_back(history.levels[level][v]);
-      there.push_back(position_of(second.place[v], second.mesh, at));
+      by_first.push_back(history.levels[level][v]);
+      by_second.push_back(position_of(second.place[v], second.mesh, at));
     }
   }
   return result;
