@@ -183,13 +183,6 @@ ContractionHistory of_refined(const TriMesh& mesh, RefinedSurface surface,
   return history;
 }
 
-ContractionHistory contract_by_area(const TriMesh& mesh, const ContractionOptions& options,
-                                    const RunContext& run) {
-  std::optional<RefinedSurface> refined = refine_coarse_components(mesh, run);
-  return refined ? of_refined(mesh, std::move(*refined), options, run)
-                 : contract_pieces(mesh, {}, options, run);
-}
-
 bool has_holes(const TriMesh& mesh) {
   const EdgeTable table = build_edge_table(mesh);
   for (std::size_t e = 0; e < table.edges.size(); ++e) {
@@ -200,16 +193,35 @@ bool has_holes(const TriMesh& mesh) {
   return false;
 }
 
-/// Those that close the components that lack little, and single ones that are missing in others.
-std::vector<Triangle> triangles_in_holes(TriMesh mesh) {
-  const std::size_t count = mesh.triangles.size();
-  for (const auto& in_holes : {fill_holes, missing_triangles}) {
-    const std::vector<Triangle> more = in_holes(mesh);
-    mesh.triangles.insert(mesh.triangles.end(), more.begin(), more.end());
+/// Closes holes of components that lack little, and single missing triangles of others. \return how many.
+std::size_t close_holes(TriMesh& mesh) {
+  const std::size_t filled = fill_holes(mesh);
+  const std::vector<Triangle> missing = missing_triangles(mesh);
+  mesh.triangles.insert(mesh.triangles.end(), missing.begin(), missing.end());
+  return filled + missing.size();
+}
+
+ContractionHistory contract_by_area(const TriMesh& mesh, const ContractionOptions& options,
+                                    const RunContext& run) {
+  TriMesh whole;
+  std::size_t holes = 0;
+  if (has_holes(mesh)) {
+    whole = mesh;
+    holes = close_holes(whole);
   }
-  mesh.triangles.erase(mesh.triangles.begin(),
-                       mesh.triangles.begin() + static_cast<std::ptrdiff_t>(count));
-  return std::move(mesh.triangles);
+  std::optional<RefinedSurface> refined = refine_coarse_components(holes > 0 ? whole : mesh, run);
+  if (!refined && holes > 0) {
+    refined = RefinedSurface{.mesh = std::move(whole)};
+  }
+  ContractionHistory history = refined ? of_refined(mesh, std::move(*refined), options, run)
+                                       : contract_pieces(mesh, {}, options, run);
+  if (holes > 0) {
+    history.warnings.push_back(
+        std::to_string(holes) +
+        (holes == 1 ? " hole in the surface was" : " holes in the surface were") +
+        " closed before the contraction");
+  }
+  return history;
 }
 
 }  // namespace
@@ -222,22 +234,8 @@ ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& optio
     resolved.weights = options.method == ContractionMethod::Exact ? ContractionWeights::Vertex
                                                                   : ContractionWeights::Area;
   }
-  if (resolved.weights != ContractionWeights::Area) {
-    return contract_pieces(mesh, {}, resolved, run);
-  }
-  std::vector<Triangle> missing =
-      has_holes(mesh) ? triangles_in_holes(mesh) : std::vector<Triangle>{};
-  if (missing.empty()) {
-    return contract_by_area(mesh, resolved, run);
-  }
-  TriMesh whole = mesh;
-  whole.triangles.insert(whole.triangles.end(), missing.begin(), missing.end());
-  ContractionHistory history = contract_by_area(whole, resolved, run);
-  history.warnings.push_back("holes in the surface were closed before the contraction, by " +
-                             std::to_string(missing.size()) +
-                             (missing.size() == 1 ? " triangle" : " triangles"));
-  history.missing = std::move(missing);
-  return history;
+  return resolved.weights == ContractionWeights::Area ? contract_by_area(mesh, resolved, run)
+                                                      : contract_pieces(mesh, {}, resolved, run);
 }
 
 }  // namespace vantage

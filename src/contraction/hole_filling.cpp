@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <numeric>
 #include <optional>
-#include <queue>
 #include <span>
-#include <tuple>
 
 #include <Eigen/Geometry>
 
@@ -107,93 +104,68 @@ class RimWalk {
   std::vector<std::uint32_t> place_;  // of each vertex in the walk, or kNone
 };
 
-/// Triangles across a rim. Always that corner is cut off whose neighbours are nearest to each other, so that the hole
-/// gets narrower from all sides. Empty if an edge would get a third face.
-std::vector<Triangle> triangles_across(const Rim& rim, std::span<const Vec3> positions,
-                                       const EdgeTable& table) {
-  using Cut = std::tuple<double, std::uint32_t, std::uint32_t, std::uint32_t>;  // length, corners
-  const auto size = static_cast<std::uint32_t>(rim.size());
-  std::vector<std::uint32_t> before(size);
-  std::vector<std::uint32_t> after(size);
-  std::priority_queue<Cut, std::vector<Cut>, std::greater<>> cuts;
-  const auto offer = [&](std::uint32_t corner) {
-    const std::uint32_t a = before[corner];
-    const std::uint32_t b = after[corner];
-    const auto [low, high] = std::minmax(rim[a], rim[b]);
-    if (!std::binary_search(table.edges.begin(), table.edges.end(), std::array{low, high})) {
-      cuts.emplace((positions[rim[a]] - positions[rim[b]]).squaredNorm(), a, corner, b);
-    }
-  };
-  for (std::uint32_t i = 0; i < size; ++i) {
-    before[i] = (i + size - 1) % size;
-    after[i] = (i + 1) % size;
+Vec3 middle_of(std::span<const Vec3> positions, const Rim& rim) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t v : rim) {
+    sum += positions[v];
   }
-  for (std::uint32_t i = 0; i < size; ++i) {
-    offer(i);
-  }
-  std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> is_cut(size, 0);
-  std::uint32_t last = 0;
-  while (triangles.size() + 3 < size) {
-    if (cuts.empty()) {
-      return {};
-    }
-    const auto [length, a, corner, b] = cuts.top();
-    cuts.pop();
-    if (is_cut[corner] == 0 && before[corner] == a && after[corner] == b) {
-      triangles.push_back({rim[a], rim[corner], rim[b]});
-      is_cut[corner] = 1;
-      after[a] = b;
-      before[b] = a;
-      offer(a);
-      offer(b);
-      last = a;
-    }
-  }
-  triangles.push_back({rim[before[last]], rim[last], rim[after[last]]});
-  return triangles;
+  return sum / static_cast<double>(rim.size());
 }
 
-double area_of(std::span<const Vec3> x, const Triangle& t) {
-  return 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm();
+/// Of the triangles around the middle.
+double area_in(std::span<const Vec3> positions, const Rim& rim) {
+  const Vec3 middle = middle_of(positions, rim);
+  double area = 0.0;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    area +=
+        0.5 *
+        (positions[rim[i]] - middle).cross(positions[rim[(i + 1) % rim.size()]] - middle).norm();
+  }
+  return area;
+}
+
+/// One triangle if it has three sides, else as many as it has.
+void close(const Rim& rim, TriMesh& mesh) {
+  if (rim.size() == 3) {
+    mesh.triangles.push_back({rim[0], rim[1], rim[2]});
+    return;
+  }
+  const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.push_back(middle_of(mesh.positions, rim));
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    mesh.triangles.push_back({rim[i], rim[(i + 1) % rim.size()], middle});
+  }
 }
 
 }  // namespace
 
-std::vector<Triangle> fill_holes(const TriMesh& mesh) {
-  const EdgeTable table = build_edge_table(mesh);
-  const Rims rims = RimWalk(mesh, table).rims();
+std::size_t fill_holes(TriMesh& mesh) {
+  const Rims rims = RimWalk(mesh, build_edge_table(mesh)).rims();
   if (rims.closed.empty()) {
-    return {};
+    return 0;
   }
   const Components components = connected_components(mesh);
   // Areas of a very small or large model would be no numbers.
   const std::vector<Vec3> positions = unit_frame(mesh.positions).to_frame(mesh.positions);
   std::vector<double> left(components.count, 0.0);  // the area that holes may still have
   for (const Triangle& t : mesh.triangles) {
-    left[components.of_vertex[t[0]]] += kMostOfTheArea * area_of(positions, t);
+    const Vec3 sides = (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
+    left[components.of_vertex[t[0]]] += kMostOfTheArea * 0.5 * sides.norm();
   }
   for (const std::uint32_t v : rims.torn) {
     left[components.of_vertex[v]] = -1.0;
   }
-  std::vector<Triangle> triangles;
   for (const Rim& rim : rims.closed) {
-    double& of_component = left[components.of_vertex[rim[0]]];
-    if (of_component < 0.0) {
-      continue;
-    }
-    const std::vector<Triangle> across = triangles_across(rim, positions, table);
-    if (across.empty()) {
-      of_component = -1.0;
-    }
-    for (const Triangle& t : across) {
-      of_component -= area_of(positions, t);
-      triangles.push_back(t);
+    left[components.of_vertex[rim[0]]] -= area_in(positions, rim);
+  }
+  std::size_t count = 0;
+  for (const Rim& rim : rims.closed) {
+    if (left[components.of_vertex[rim[0]]] >= 0.0) {
+      close(rim, mesh);
+      ++count;
     }
   }
-  std::erase_if(triangles,
-                [&](const Triangle& t) { return left[components.of_vertex[t[0]]] < 0.0; });
-  return triangles;
+  return count;
 }
 
 }  // namespace vantage

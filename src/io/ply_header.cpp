@@ -115,7 +115,8 @@ class PlyHeaderReader {
     const std::string_view keyword = take_token(rest);
     if (keyword == "comment") {
       read_comment(rest);
-    } else if (keyword.empty() || keyword == "obj_info") {
+    } else if (keyword.empty() || keyword == "obj_info" || keyword == "Created") {
+      // "Created by Blender3D 247 …": Blender 2.4 left the word comment out.
       return;
     } else if (keyword == "format") {
       read_format(take_token(rest));

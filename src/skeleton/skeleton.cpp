@@ -230,16 +230,8 @@ Skeleton extract(const TriMesh& mesh, const ContractionHistory& history,
     throw InvalidInput("the contraction history does not belong to this mesh");
   }
   const RunContext most = run.part(0.0, 0.9);
-  Skeleton skeleton;
-  if (history.refinement) {
-    skeleton = of_refinement(mesh, history, options, extent, most);
-  } else if (history.missing.empty()) {
-    skeleton = skeleton_of(mesh, history, options, extent, most);
-  } else {
-    TriMesh whole = mesh;
-    whole.triangles.insert(whole.triangles.end(), history.missing.begin(), history.missing.end());
-    skeleton = skeleton_of(whole, history, options, extent, most);
-  }
+  Skeleton skeleton = history.refinement ? of_refinement(mesh, history, options, extent, most)
+                                         : skeleton_of(mesh, history, options, extent, most);
   if (options.fit && !history.second.levels.empty()) {
     skeleton.other_curve = curve_of(history.second, options, run.part(0.9, 1.0));
   }

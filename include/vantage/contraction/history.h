@@ -106,9 +106,7 @@ struct ContractionHistory {
   /// level [ours: docs/contraction.md].
   std::vector<Vec3> thinned{};
   std::vector<std::string> warnings{};  ///< One sentence each.
-  /// Triangles in holes of the surface, put in before the contraction (ours).
-  std::vector<Triangle> missing{};
-  /// If some component was made of few huge faces.
+  /// If some component was made of few huge faces, or holes were closed (ours).
   std::optional<ContractedRefinement> refinement{};
   SecondMesh second{};  ///< Empty for point clouds.
   /// If some component is large.

@@ -57,10 +57,10 @@ class VertexVisibility {
 struct OrientedMesh {
   TriMesh mesh{};                  ///< Same vertices; faces of some components reversed.
   std::vector<FaceSides> sides{};  ///< One per component of connected_components(mesh).
-  std::size_t turned_shells = 0;   ///< Closed components that were inside out.
+  std::size_t turned_shells = 0;   ///< Closed shells that were inside out.
 };
 
-/// Turns closed, consistently wound components that are inside out. A shell inside an odd number
+/// Turns closed, consistently wound shells that are inside out; a component may have several. A shell inside an odd number
 /// of other closed shells bounds a cavity and should be wound inwards; an even number, outwards.
 /// \throw Cancelled
 OrientedMesh orient_shells(const TriMesh& mesh, const RunContext& run = {});

@@ -156,6 +156,15 @@ TEST(Ply, PassesOverOtherElementsAndListProperties) {
   EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
 }
 
+TEST(Ply, ReadsWhatBlender24Wrote) {
+  const Model model = ply(
+      "ply\nformat ascii 1.0\nCreated by Blender3D 247 - www.blender.org, source file: a.blend\n"
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar uint vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(model.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_TRUE(model.notes.empty());
+}
+
 TEST(Ply, ReadsTriangleStripsWithSeparators) {
   // 0 1 2 3: the second triangle of a strip is turned. −1 starts a new strip.
   const Model model = ply(
