@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "vantage/io/write.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
@@ -119,9 +120,9 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& w
         " is left, in parts that hold " + percent(thick) + " of that" +
         (shape.significance.empty() ? ""
                                     : " and " + percent(significant) + " of the significance") +
-        "), so that map, skeleton and views are hardly more than a guess: mend the mesh, cut it "
-        "into small even triangles, or choose another --method, which alone helps flat discs and "
-        "plates");
+        "), so that map, skeleton and views are hardly more than a guess: flat discs and plates "
+        "have no curve and need another --method; mend other meshes, or cut them into small even "
+        "triangles");
   }
 }
 
@@ -260,9 +261,10 @@ MovedMap checked_moved_map(const ShapeAnalysis& shape, const ViewOptions& option
 }
 
 std::string unlike_map_text(const MovedMap& moved) {
-  return "the significance map hangs on how the surface is cut into triangles: on a copy moved "
-         "by a ten-thousandth of its size the ranks of its values agree to " +
-         percent(std::max(moved.agreement, 0.0)) + " only";
+  return "the significance map hangs on how the surface is cut into triangles: where vertices are "
+         "moved by a ten-thousandth of its size its values are in another order (rank "
+         "correlation " +
+         number_text(std::round(100.0 * moved.agreement) / 100.0) + ")";
 }
 
 void note_a_skeleton_outside(const ShapeAnalysis& shape, std::vector<std::string>& notes) {
