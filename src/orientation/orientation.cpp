@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -84,18 +83,18 @@ struct Habit {
 
 /// Probabilities that a candidate is right, or looks just like what is right.
 struct Confidence {
-  std::vector<double> of{};    ///< Each candidate.
-  std::vector<double> most{};  ///< That may be said of it: 1 if all look like it.
+  std::vector<double> probability{};  ///< Of each candidate.
+  std::vector<double> cap{};          ///< What may be stated of it at most: 1 if all look like it.
 
   /// \param first wins ties.
   [[nodiscard]] std::size_t best(std::size_t first) const {
-    for (std::size_t c = 0; c < of.size(); ++c) {
-      first = of[c] > of[first] + 1e-9 ? c : first;
+    for (std::size_t c = 0; c < probability.size(); ++c) {
+      first = probability[c] > probability[first] + 1e-9 ? c : first;
     }
     return first;
   }
 
-  [[nodiscard]] double said(std::size_t c) const { return std::min(of[c], most[c]); }
+  [[nodiscard]] double stated(std::size_t c) const { return std::min(probability[c], cap[c]); }
 };
 
 /// \param alike whether two candidates cannot be told apart.
@@ -107,10 +106,10 @@ Confidence confidence_of(const std::vector<AxisDirection>& candidates,
   for (std::size_t a = 0; a < odds.size(); ++a) {
     for (std::size_t b = 0; b < odds.size(); ++b) {
       const bool is_like = a == b || alike(candidates[a], candidates[b]);
-      confidence.of[a] += is_like ? odds[b] : 0.0;
-      confidence.most[a] = is_like ? confidence.most[a] : kMostSure;
+      confidence.probability[a] += is_like ? odds[b] : 0.0;
+      confidence.cap[a] = is_like ? confidence.cap[a] : kMostSure;
     }
-    confidence.of[a] = std::min(confidence.of[a], 1.0);
+    confidence.probability[a] = std::min(confidence.probability[a], 1.0);
   }
   return confidence;
 }
@@ -124,20 +123,20 @@ DirectionChoice choose(const std::vector<AxisDirection>& candidates, std::vector
   scores[habit.usual] += habit.log_odds;
   const Confidence confidence = confidence_of(candidates, odds_of(std::move(scores)), alike);
   const std::size_t best = confidence.best(habit.usual);
-  const std::size_t chosen = confidence.of[best] >= habit.threshold ? best : habit.usual;
+  const std::size_t chosen = confidence.probability[best] >= habit.threshold ? best : habit.usual;
   DirectionChoice choice{.direction = candidates[chosen].vector(),
                          .source = chosen == habit.usual ? "format" : "shape",
-                         .confidence = confidence.said(chosen),
+                         .confidence = confidence.stated(chosen),
                          .likeliest = candidates[best].vector(),
-                         .likeliest_confidence = confidence.said(best)};
+                         .likeliest_confidence = confidence.stated(best)};
   // Where the convention makes it likely, it is no reason of the shape's.
   if (by_shape.best(best) == best &&
-      by_shape.of[best] >= std::min(kTellsNothing, confidence.of[best])) {
+      by_shape.probability[best] >= std::min(kTellsNothing, confidence.probability[best])) {
     choice.reasons = reasons(candidates[best]);
   }
   if (const std::size_t favoured = by_shape.best(chosen); favoured != chosen) {
     choice.by_shape = candidates[favoured].vector();
-    choice.by_shape_confidence = by_shape.said(favoured);
+    choice.by_shape_confidence = by_shape.stated(favoured);
   }
   for (const AxisDirection other : candidates) {
     if (!(other == candidates[chosen]) && alike(candidates[chosen], other)) {

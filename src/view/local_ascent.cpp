@@ -72,6 +72,14 @@ void step(Climb& climb, std::span<const Candidate> ring, double flat) {
   climb.at->spread = spread;
 }
 
+/// Whether another climb is as high, and so near that both would go on alike. Of equals the first goes on.
+bool is_caught_up_by(const Climb& climb, const Climb& other) {
+  const bool is_lesser =
+      &other < &climb ? climb.at->value <= other.at->value : climb.at->value < other.at->value;
+  return is_lesser && angle_between(climb.at->direction, other.at->direction) <
+                          std::min(climb.width_rad, other.width_rad);
+}
+
 /// Ends what the rules end.
 void end_some(std::vector<Climb>& climbs, const AscentRules& rules) {
   const Candidate& best = *std::max_element(climbs.begin(), climbs.end(), [](auto& a, auto& b) {
@@ -79,16 +87,11 @@ void end_some(std::vector<Climb>& climbs, const AscentRules& rules) {
                            })->at;
   for (Climb& climb : climbs) {
     climb.is_over |= climb.width_rad < rules.last_rad;
-    if (!rules.drops_losers || climb.at == &best) {
-      continue;
-    }
-    climb.is_over |= climb.at->value + climb.at->spread < best.value;
-    for (const Climb& other : climbs) {
-      const bool is_lesser =
-          &other < &climb ? climb.at->value <= other.at->value : climb.at->value < other.at->value;
-      climb.is_over |= &other != &climb && is_lesser &&
-                       angle_between(climb.at->direction, other.at->direction) <
-                           std::min(climb.width_rad, other.width_rad);
+    if (rules.drops_losers && climb.at != &best) {
+      climb.is_over |= climb.at->value + climb.at->spread < best.value;
+      climb.is_over |= std::any_of(climbs.begin(), climbs.end(), [&](const Climb& other) {
+        return is_caught_up_by(climb, other);
+      });
     }
   }
 }
@@ -135,6 +138,7 @@ std::vector<Candidate> largest_apart(std::vector<Candidate> candidates, std::siz
 void ascend(std::vector<Candidate>& candidates, const AscentRules& rules,
             const SearchTarget& target, int level, const RunContext& run) {
   std::vector<Climb> climbs;
+  climbs.reserve(candidates.size());
   for (Candidate& one : candidates) {
     climbs.push_back({&one, rules.first_rad});
   }
