@@ -159,8 +159,9 @@ class Contraction {
       state_.attraction[v] = std::min(1.0 / std::sqrt(vertex_ratio[v]), options_.attraction_limit);
     }
     const double W_L = state_.contraction;
-    if (!limited_ && grown(W_L, options_.sheet_limit) > grown(W_L, limit)) {
-      limited_ = state_;
+    const bool is_limited = grown(W_L, limit) < grown(W_L, options_.sheet_limit);
+    if (is_limited && !before_limit_) {
+      before_limit_ = state_;
     }
     state_.contraction = grown(W_L, limit);
     return std::nullopt;
@@ -169,10 +170,10 @@ class Contraction {
   /// Goes back to where a lower limit began to tell, as if it had been `sheet_limit`. False if none
   /// did.
   bool rewind() {
-    if (!limited_) {
+    if (!before_limit_) {
       return false;
     }
-    state_ = std::move(*limited_);
+    state_ = std::move(*before_limit_);
     state_.contraction = grown(state_.contraction, options_.sheet_limit);
     return true;
   }
@@ -259,8 +260,8 @@ class Contraction {
   AreaRatios ratios_;
   StepSolver& solver_;
   State state_{};
-  std::optional<State> limited_{};  // before the first step whose W_L a limit kept low
-  std::size_t variant_;             // of kVariants, where the next step begins
+  std::optional<State> before_limit_{};  // before the first step whose W_L a limit kept low
+  std::size_t variant_;                  // of kVariants, where the next step begins
   std::vector<std::string> remedies_{};
   bool is_stuck_ = false;
   bool was_unsound_ = false;

@@ -33,6 +33,17 @@ ContractionOptions without_thinning(ContractionOptions options) {
   return options;
 }
 
+/// Whether an attempt got farther than the best before it, if there is one.
+bool is_farther(const ComponentHistory& attempt, const ComponentHistory& best) {
+  return best.shrinkage.empty() ||
+         (!attempt.is_stuck && attempt.shrinkage.back() < best.shrinkage.back());
+}
+
+/// Whether it stands still as a plate.
+bool is_held(const ComponentHistory& history) {
+  return history.summary.stop == ContractionStop::Shrunk && is_plate(history.shrinkage.back());
+}
+
 /// Contracts a surface by even shares. The rim of a plate may become a line that holds the rest
 /// where it is, by steps that are too small for so wide a surface: then all is done again by larger
 /// ones, as long as that leads farther.
@@ -50,16 +61,12 @@ ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions
     const RunContext part = run.part(done, 0.5 * (1.0 + done));
     done = 0.5 * (1.0 + done);
     ComponentHistory attempt = contract_component(scaled, options, part, shares, weights, solver);
-    if (again == 0) {
+    if (is_farther(attempt, best)) {
       best = std::move(attempt);
     } else if (!attempt.is_stuck) {  // larger steps may pass where these do not
-      if (attempt.shrinkage.back() >= best.shrinkage.back()) {
-        return best;
-      }
-      best = std::move(attempt);
+      return best;
     }
-    if (!may_begin_again || best.summary.stop != ContractionStop::Shrunk ||
-        !is_plate(best.shrinkage.back())) {
+    if (!may_begin_again || !is_held(best)) {
       return best;
     }
     shares.first_pull *= options.contraction_growth;
