@@ -2,6 +2,7 @@
 #include "skeleton/surgery.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -46,6 +47,12 @@ double collapse_cost(const ClusterComplex& complex, std::uint32_t edge) {
   return cost;
 }
 
+/// What is to be collapsed next.
+struct NextEdge {
+  std::uint32_t edge;
+  bool is_refused;  ///< By the guard, as all that are left.
+};
+
 /// The queue of edges that still belong to triangles.
 class CollapseQueue {
  public:
@@ -54,55 +61,26 @@ class CollapseQueue {
     refill();
   }
 
-  void refill() {
-    heap_.clear();
-    aside_.clear();
-    known_ = 0;
-    push_new_edges();
-  }
-
-  /// Cheapest edge to collapse; false if none is left.
-  bool pop(std::uint32_t& edge) {
-    while (!heap_.empty()) {
-      const Candidate top = heap_.front();
-      std::pop_heap(heap_.begin(), heap_.end());
-      heap_.pop_back();
-      if (top.version != version_[top.edge] || !collapsible(top.edge)) {
-        continue;
+  /// The cheapest edge that the guard allows; where it refuses all, the cheapest of those.
+  /// \pre there are triangles. \throw Cancelled
+  NextEdge next(const RunContext& run) {
+    for (;;) {
+      while (const std::optional<Candidate> top = pop()) {
+        if (complex_.keeps_handles(top->edge)) {
+          return {top->edge, false};
+        }
+        set_aside(*top);
       }
-      // Collapses next door may have created a loop to pinch since this was queued.
-      const std::uint32_t cost = complex_.order().steps(collapse_cost(complex_, top.edge));
-      if (cost > top.cost) {
-        add({cost, top.place, top.edge, top.version});
-        continue;
+      run.check();
+      if (complex_.dead_loops() == dead_loops_) {
+        if (const std::optional<Candidate> top = pop_aside()) {
+          return {top->edge, !complex_.keeps_handles(top->edge)};
+        }
       }
-      edge = top.edge;
-      popped_ = top;
-      return true;
+      // Look again at what the loops that died allow.
+      dead_loops_ = complex_.dead_loops();
+      refill();
     }
-    return false;
-  }
-
-  /// Sets the edge that was popped last aside, until something around it changes.
-  void set_aside() {
-    is_aside_[popped_.edge] = true;
-    aside_.push_back(popped_);
-    std::push_heap(aside_.begin(), aside_.end());
-  }
-
-  /// The cheapest edge that was set aside; false if there is none.
-  bool pop_aside(std::uint32_t& edge) {
-    while (!aside_.empty()) {
-      const Candidate top = aside_.front();
-      std::pop_heap(aside_.begin(), aside_.end());
-      aside_.pop_back();
-      if (is_aside_[top.edge] && top.version == version_[top.edge] && collapsible(top.edge)) {
-        is_aside_[top.edge] = false;
-        edge = top.edge;
-        return true;
-      }
-    }
-    return false;
   }
 
   /// Queues edges that splitting made, and what was set aside next to them.
@@ -142,6 +120,53 @@ class CollapseQueue {
   }
 
  private:
+  void refill() {
+    heap_.clear();
+    aside_.clear();
+    known_ = 0;
+    push_new_edges();
+  }
+
+  /// Cheapest edge to collapse, if any is left.
+  std::optional<Candidate> pop() {
+    while (!heap_.empty()) {
+      const Candidate top = heap_.front();
+      std::pop_heap(heap_.begin(), heap_.end());
+      heap_.pop_back();
+      if (top.version != version_[top.edge] || !collapsible(top.edge)) {
+        continue;
+      }
+      // Collapses next door may have created a loop to pinch since this was queued.
+      const std::uint32_t cost = complex_.order().steps(collapse_cost(complex_, top.edge));
+      if (cost <= top.cost) {
+        return top;
+      }
+      add({cost, top.place, top.edge, top.version});
+    }
+    return std::nullopt;
+  }
+
+  /// Keeps an edge until something around it changes.
+  void set_aside(const Candidate& candidate) {
+    is_aside_[candidate.edge] = true;
+    aside_.push_back(candidate);
+    std::push_heap(aside_.begin(), aside_.end());
+  }
+
+  /// The cheapest edge that was set aside, if there is one.
+  std::optional<Candidate> pop_aside() {
+    while (!aside_.empty()) {
+      const Candidate top = aside_.front();
+      std::pop_heap(aside_.begin(), aside_.end());
+      aside_.pop_back();
+      if (is_aside_[top.edge] && top.version == version_[top.edge] && collapsible(top.edge)) {
+        is_aside_[top.edge] = false;
+        return top;
+      }
+    }
+    return std::nullopt;
+  }
+
   [[nodiscard]] bool collapsible(std::uint32_t edge) const {
     return complex_.edge_is_live(edge) && complex_.faces_at(edge) > 0;
   }
@@ -195,7 +220,7 @@ class CollapseQueue {
   std::vector<std::uint32_t> moves_;  ///< Of each cluster since its edges were queued.
   std::vector<Candidate> heap_{};
   std::size_t known_ = 0;           ///< Edges that were queued once.
-  Candidate popped_{};              ///< The last one.
+  std::size_t dead_loops_ = 0;      ///< When all edges were looked at.
   std::vector<Candidate> aside_{};  ///< A heap of what the guard refused.
   std::vector<bool> is_aside_{};    ///< Of each edge.
   std::vector<std::uint32_t> next_to_{};
@@ -211,32 +236,14 @@ std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run,
   std::size_t forced = 0;
   std::size_t collapsed = 0;
   double done = 0.0;
-  std::size_t dead = 0;  // loops when all edges were looked at
-  std::uint32_t edge = 0;
   while (complex.face_count() > 0) {
-    bool is_stuck = false;
-    if (!queue.pop(edge)) {
-      // Only edges that the guard refused are left: look again at what the loops that died allow.
-      run.check();
-      is_stuck = complex.dead_loops() == dead && queue.pop_aside(edge);
-      if (!is_stuck) {
-        dead = complex.dead_loops();
-        queue.refill();
-        continue;
-      }
-    }
-    if (!complex.keeps_handles(edge)) {
-      if (!is_stuck) {
-        queue.set_aside();
-        continue;
-      }
-      if (refined < kMostRefinements) {
-        complex.make_room(edge);
-        queue.push_new_edges();
-        ++refined;
-      } else if (++forced == given_up_at) {
-        return forced;
-      }
+    const auto [edge, is_refused] = queue.next(run);
+    if (is_refused && refined < kMostRefinements) {
+      complex.make_room(edge);
+      queue.push_new_edges();
+      ++refined;
+    } else if (is_refused && ++forced == given_up_at) {
+      return forced;
     }
     queue.refresh(complex.collapse(edge));
     if (++collapsed % kPoll == 0) {
