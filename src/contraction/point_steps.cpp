@@ -2,7 +2,6 @@
 #include "contraction/point_steps.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>

@@ -2,7 +2,6 @@
 #include "contraction/soundness.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>

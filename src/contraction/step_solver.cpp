@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "contraction/step_solver.h"
 
-#include <cmath>
 #include <cstddef>
 #include <utility>
 

@@ -6,8 +6,6 @@
 #include <optional>
 
 #include "vantage/core/error.h"
-#include "vantage/mesh/measures.h"
-#include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
 #include "core/shannon.h"

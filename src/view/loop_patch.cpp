@@ -2,7 +2,6 @@
 #include "view/loop_patch.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 namespace vantage {

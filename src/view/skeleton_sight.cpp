@@ -2,7 +2,6 @@
 #include "view/skeleton_sight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 

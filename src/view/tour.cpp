@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "vantage/core/error.h"
 #include "vantage/view/view_set.h"

@@ -5,10 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <utility>
-
-#include <Eigen/Geometry>
 
 #include "vantage/core/error.h"
 #include "vantage/spatial/directions.h"

@@ -10,8 +10,6 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Geometry>
-
 #include "core/parallel.h"
 #include "spatial/segment.h"
 #include "visibility/face_packet.h"

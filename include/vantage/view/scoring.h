@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "vantage/core/camera.h"
