@@ -25,6 +25,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/import_stream.h"
+#include "vantage/io/model.h"
 
 #include "batch/descriptor.h"
 #include "batch/program_call.h"
