@@ -106,6 +106,25 @@ TEST(FillHoles, LeavesWhatIsMadeOpen) {
   EXPECT_EQ(holes_of(box), 0U);
 }
 
+/// At the rim of one of two holes a face is wound the other way, so it would stay open.
+TEST(FillHoles, ClosesNoneWhereOneWouldStayOpen) {
+  const Vec3 at = Vec3::UnitX();
+  TriMesh mesh = with_hole(with_hole(test::sphere(4), at, 0.3), -at, 0.2);
+  ASSERT_EQ(holes_of(mesh), 2U);
+  const auto distance = [&](const Triangle& t) {
+    double least = 2.0;
+    for (const std::uint32_t v : t) {
+      least = std::min(least, (mesh.positions[v] - at).norm());
+    }
+    return least;
+  };
+  Triangle& nearest = *std::min_element(
+      mesh.triangles.begin(), mesh.triangles.end(),
+      [&](const Triangle& a, const Triangle& b) { return distance(a) < distance(b); });
+  std::swap(nearest[0], nearest[1]);
+  EXPECT_EQ(holes_of(mesh), 0U);
+}
+
 TEST(FillHoles, LooksAtEachComponent) {
   const TriMesh ball = with_hole(test::sphere(3), Vec3::UnitZ(), 0.3);
   const TriMesh both = test::together(test::sheet(9.0, 9.0, 8), ball, {0.0, 0.0, 5.0});
