@@ -199,7 +199,7 @@ struct BatchCommand {
       batch::check_overview(root);
     }
     const batch::FolderLock lock(root, runner.work_name);
-    session.if_stopped = "; the same command goes on from there, and makes the overview at its end";
+    session.if_stopped = "; the same command goes on from there";
     if (on_slurm) {
       run_shards(session, *source, root);
       return;

@@ -91,7 +91,8 @@ class Import(ProgramTest):
         one = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
         skin = ('<library_controllers><controller id="c"><skin source="#g"><bind_shape_matrix>10 0 0 0 0 10 0 0 '
                 "0 0 10 0 0 0 0 1</bind_shape_matrix>" + source("j", "a b", 1, "name")
-                + source("i", f"{one} {one}", 16, "float4x4") + source("w", "1", 1)
+                + source("i", f"{one} {one}", 16, "float4x4") + source("w", "0.5", 1)  # shares need not sum to one
+               
                 + '<joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#i"/>'
                 '</joints><vertex_weights count="4"><input semantic="JOINT" source="#j" offset="0"/>'
                 '<input semantic="WEIGHT" source="#w" offset="1"/><vcount>1 1 1 1</vcount>'
@@ -274,6 +275,12 @@ class Broken(ProgramTest):
     def test_more_memory_than_allowed_is_one_sentence(self):
         copy = self.stand_in("exec head -c 200000000 /dev/zero")
         self.fails(DATA / "lamp.fbx", "--max-memory", "100MB", program_path=copy, says="--max-memory")
+        # Each node shows the next one twice: a billion nodes of 3 kB.
+        below = "".join(f'<node id="n{k}"><instance_node url="#n{k + 1}"/><instance_node url="#n{k + 1}"/></node>'
+                        for k in range(30)) + '<node id="n30"><instance_geometry url="#g"/></node>'
+        self.write("a.dae", collada('<node><instance_node url="#n0"/></node>',
+                                    f"<library_nodes>{below}</library_nodes>"))
+        self.fails("a.dae", "--max-memory", "150MB", says="it needs more memory than is allowed")
 
     def test_faces_are_counted_before_they_are_sent(self):
         says = "has more than 59 faces, the most that --max-faces allows; decimate it, or allow more if there is the memory\n"

@@ -7,6 +7,7 @@ import subprocess
 import unittest
 import unittest.mock
 
+from png import read_png
 from program import MODELS, PROGRAM, ProgramTest
 from program import contract_quickly as setUpModule
 from shapes import box
@@ -294,6 +295,21 @@ class Tables(ProgramTest):
         # Without a model of its name, a cup is just a cup.
         self.vantage("batch", "one", "-o", "c", "--search", "rapid", "--size", "64")
         self.assertNotEqual(before, (self.dir / "c/contact-sheet-0001.png").read_bytes())
+
+    def test_models_of_one_name_in_one_folder_are_told_apart_by_their_endings(self):
+        os.mkdir(self.dir / "in")
+        self.write("in/cup.off", box(1.0))
+        self.vantage("orient", "in/cup.off", "--up", "y", "-o", "in/cup.ply")
+        self.vantage("batch", "in", "-o", "b", "--search", "rapid", "--size", "64")
+        rows = read_png((self.dir / "b/contact-sheet-0001.png").read_bytes())[2]
+        gap, side, caption = 8, 160, 18  # of the sheet's tiles
+
+        def names(tile):
+            left = gap + tile * (side + gap)
+            return [row[4 * left:4 * (left + side)] for row in rows[gap + side:gap + side + caption]]
+
+        self.assertNotEqual(names(0), names(1))
+        self.assertEqual(names(2), [b"\xff" * 4 * side] * caption)  # an empty tile, to know where they are
 
 
 class StandardInput(ProgramTest):

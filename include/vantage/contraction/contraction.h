@@ -76,8 +76,8 @@ inline constexpr auto kContractionFields = std::tuple{
 };
 
 /// Contracts each connected component of `mesh` by itself, as options.method says.
-/// Vertex i of every level is vertex i of the input. Commutes with
-/// similarity transforms of the input up to rounding. Coincident vertices should be welded first.
+/// Vertex i of every level is vertex i of the input. Commutes with similarity transforms of the input
+/// up to rounding. Coincident vertices should be welded first.
 ///
 /// \throw InvalidInput if an option is outside its range.
 /// \throw Cancelled

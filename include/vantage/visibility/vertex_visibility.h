@@ -60,8 +60,9 @@ struct OrientedMesh {
   std::size_t turned_shells = 0;   ///< Closed shells that were inside out.
 };
 
-/// Turns closed, consistently wound shells that are inside out; a component may have several. A shell inside an odd number
-/// of other closed shells bounds a cavity and should be wound inwards; an even number, outwards.
+/// Turns closed, consistently wound shells that are inside out; a component may have several. A shell
+/// inside an odd number of other closed shells bounds a cavity and should be wound inwards; an even
+/// number, outwards.
 /// \throw Cancelled
 OrientedMesh orient_shells(const TriMesh& mesh, const RunContext& run = {});
 
