@@ -91,15 +91,15 @@ class Import(ProgramTest):
         one = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
         skin = ('<library_controllers><controller id="c"><skin source="#g"><bind_shape_matrix>10 0 0 0 0 10 0 0 '
                 "0 0 10 0 0 0 0 1</bind_shape_matrix>" + source("j", "a b", 1, "name")
-                + source("i", f"{one} {one}", 16, "float4x4") + source("w", "0.5", 1)  # shares need not sum to one
-               
+                + source("i", f"{one} {one}", 16, "float4x4")
+                + source("w", "0.5", 1)  # shares need not sum to one
                 + '<joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#i"/>'
                 '</joints><vertex_weights count="4"><input semantic="JOINT" source="#j" offset="0"/>'
                 '<input semantic="WEIGHT" source="#w" offset="1"/><vcount>1 1 1 1</vcount>'
                 "<v>0 0 0 0 1 0 0 0</v></vertex_weights></skin></controller></library_controllers>")
         nodes = ('<node id="a" sid="a" name="a" type="JOINT"><node id="b" sid="b" name="b" type="JOINT">'
-                 '<translate>0 100 0</translate></node></node><node id="n"><instance_controller url="#c"><skeleton>#a</skeleton>'
-                 "</instance_controller></node>")
+                 '<translate>0 100 0</translate></node></node><node id="n"><instance_controller url="#c">'
+                 "<skeleton>#a</skeleton></instance_controller></node>")
         self.assertEqual(self.box_of("a.dae", collada(nodes, skin)), [40, 130, 20])
         self.assertIn("skinned meshes are shown as their joints stand", self.vantage("info", "a.dae").err)
 
