@@ -200,6 +200,19 @@ const CLI::Option* option_called(const CLI::App& program, const std::string& nam
   return Flags(*command).find(name);
 }
 
+/// A sentence about a command line that ends before it names one of these commands.
+std::string missing_command(const CLI::App& before, const std::vector<std::string>& names) {
+  if (before.get_parent() == nullptr) {
+    return "a command is missing, as in vantage view MODEL; vantage --help lists all";
+  }
+  const std::string call = "vantage " + call_of(before);
+  std::string problem = call + " needs a command:";
+  for (const std::string& name : names) {
+    problem += " " + name + (name == names.back() ? "; see " + call + " --help" : ",");
+  }
+  return problem;
+}
+
 }  // namespace
 
 std::string plain_mismatch(const CLI::App& program, const std::string& complaint) {
@@ -242,17 +255,24 @@ std::optional<std::string> unknown_word(const CLI::App& program,
   const CLI::App* command = &program;
   std::size_t at = 0;
   while (!commands_below(*command).empty()) {
-    if (at == words.size() || looks_like_flag(words[at])) {
-      return std::nullopt;
-    }
     std::vector<std::string> names;
+    for (const CLI::App* sub : commands_below(*command)) {
+      names.push_back(sub->get_name());
+    }
+    if (at == words.size()) {
+      return missing_command(*command, names);
+    }
+    if (looks_like_flag(words[at])) {
+      const std::string flag = words[at].substr(0, words[at].find('='));
+      return Flags(*command).find(flag) != nullptr
+                 ? std::nullopt
+                 : std::optional("flags follow a command, and " + flag +
+                                 " follows none; see --help");
+    }
     const CLI::App* below = nullptr;
     for (const CLI::App* sub :
          command->get_subcommands([](const CLI::App* any) { return !any->get_name().empty(); })) {
       below = sub->get_name() == words[at] ? sub : below;
-    }
-    for (const CLI::App* sub : commands_below(*command)) {
-      names.push_back(sub->get_name());
     }
     if (below == nullptr) {
       const std::string call = call_of(*command);

@@ -25,6 +25,13 @@ class Usage(ProgramTest):
 
     def test_no_command(self):
         self.check_usage()
+        self.assertIn("vantage view MODEL", self.vantage(exit_code=2).err)
+        self.check_usage("results")
+        self.assertRegex(self.vantage("results", exit_code=2).err, r"a command: \w+, .*; see vantage results --help")
+
+    def test_a_flag_before_the_command(self):
+        self.check_usage("--up", "z", "view", "a.off")
+        self.assertIn("--up follows none", self.vantage("--up=z", "view", "a.off", exit_code=2).err)
 
     def test_unknown_command(self):
         self.check_usage("veiw", "a.off")
