@@ -46,6 +46,10 @@ Model load_posed(Session& session, const std::string& path, const OptionFlags& f
   Model model = look != nullptr ? session.load(path, look->reading(options.width, options.height))
                                 : session.load(path);
   refuse_front_along_up(front, model, options);
+  if (sidecar.front && !options.front && !flags.has("front")) {
+    model.notes.emplace_back("the sidecar's front " + std::string(up_name(*sidecar.front)) +
+                             " lies along the up that is given and was not taken");
+  }
   session.computing([&] { return stand_along_axes(model, options); });
   return model;
 }

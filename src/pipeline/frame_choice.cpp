@@ -146,7 +146,7 @@ std::string words_on_best_view(const Orientation& orientation, const ViewOptions
                                const Vec3& eye) {
   const DirectionChoice& front = orientation.front;
   const bool is_behind = is_from_behind(front, eye);
-  if (front.confidence >= kUnsure || front.source == "given" ||
+  if (front.confidence >= kUnsure || front.source == "given" || options.best_view ||
       objective_of(options) != Objective::People) {
     return is_behind ? "; the best view is from behind" : "";
   }

@@ -306,6 +306,16 @@ class Sidecars(ProgramTest):
             found = json.loads(next((self.dir / "out").rglob("view.json")).read_text())
             self.assertEqual(found["up"], up)
 
+    def test_notes_on_a_front_that_is_not_taken_claim_no_search(self):
+        fan = self.dir / "fan.ply"
+        fan.write_bytes((MODELS / "fan.ply").read_bytes())
+        self.write("vantage.json", '{"up": "z", "front": "-y", "view": [1, -1, 0.5]}')
+        self.vantage("view", fan, "-o", "r", "--no-images", "--up", "y")
+        notes = json.loads((self.dir / "r" / "view.json").read_text())["warnings"]
+        self.assertIn("the sidecar's front -y lies along the up that is given and was not taken", notes)
+        self.assertTrue(any(note.startswith("front is unsure") for note in notes), notes)
+        self.assertFalse(any("weighs all sides" in note for note in notes), notes)
+
     def test_view_thumb_render_and_batch_obey_it(self):
         self.write("a.obj", obj())
         self.write("vantage.json", '{"up": "-x", "front": "y", "view": [0, 0, -2]}')
