@@ -289,7 +289,6 @@ struct BatchWorkerCommand {
     output.keep_private();  // the parent moves it to its place
     ShapePictures pictures(shape, own_look.of(model, up_vector(choice.frame.up)));
     if (const auto best = add_pictures(output, kinds_, pictures, report, own, run)) {
-      warn_of_empty_picture(best, report);
       output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
     }
     if (kinds_.has("views")) {

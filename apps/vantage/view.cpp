@@ -132,9 +132,7 @@ struct ViewCommand {
     const PictureLook shown = look.of(loaded, up_vector(choice.frame.up));
     ShapePictures pictures(shape, shown);
     if (!no_images) {
-      const std::optional<Image> best =
-          add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.95));
-      warn_of_empty_picture(best, report);
+      add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.95));
     }
     output.add("view.json", view_json(loaded, shape, report, options));
     several.write(output, shape, pictures, report, choice.frame.up, options, run.part(0.95, 1.0));

@@ -86,7 +86,7 @@ std::string OutputKinds::text() const {
 }
 
 std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds,
-                                  ShapePictures& pictures, const ViewReport& report,
+                                  ShapePictures& pictures, ViewReport& report,
                                   const ViewOptions& options, const RunContext& run) {
   std::vector<std::string> names;
   std::vector<Image> images;
@@ -113,15 +113,15 @@ std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds
     output.add(names[i] + ".png", std::move(files[i]));
     if (names[i] == "best") {
       best = std::move(images[i]);
+    } else if (names[i] == "worst" && !emptiness_warning(images[i]).empty()) {
+      report.warnings.emplace_back(
+          "worst.png is next to empty: the model is too thin to show from there");
     }
   }
-  return best;
-}
-
-void warn_of_empty_picture(const std::optional<Image>& best, ViewReport& report) {
   if (std::string warning = best ? emptiness_warning(*best) : ""; !warning.empty()) {
     report.reliability_warnings.push_back(std::move(warning));
   }
+  return best;
 }
 
 void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,

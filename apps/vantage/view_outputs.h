@@ -38,13 +38,11 @@ class OutputKinds {
   std::set<std::string, std::less<>> kinds_{};
 };
 
-/// Adds the pictures among `kinds`. \return the best view's, if it is among them. \throw Cancelled
+/// Adds the pictures among `kinds`, and to the report a warning if that of the best view shows next to nothing, a
+/// note if that of the worst does. \return the best view's, if it is among them. \throw Cancelled
 std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds,
-                                  ShapePictures& pictures, const ViewReport& report,
+                                  ShapePictures& pictures, ViewReport& report,
                                   const ViewOptions& options, const RunContext& run);
-
-/// Adds a warning if the picture of the best view shows next to nothing.
-void warn_of_empty_picture(const std::optional<Image>& best, ViewReport& report);
 
 /// Adds report.html if it is among `kinds`. \throw Cancelled
 void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,

@@ -9,7 +9,7 @@
 
 #include "vantage/io/write.h"
 
-#include "pipeline/map_coordinates.h"
+#include "pipeline/land.h"
 #include "pipeline/percent.h"
 #include "pipeline/view_preparation.h"
 
@@ -35,9 +35,18 @@ struct HabitWords {
   const char* its = "its format's";
 };
 
-HabitWords words_for_up(bool is_of_map) {
+HabitWords words_for_up(UpHabit habit) {
   constexpr const char* kByMap = "by its map coordinates";
-  return is_of_map ? HabitWords{"of map coordinates", kByMap, kByMap} : HabitWords{};
+  constexpr const char* kByHeights = "as it is a height field";
+  switch (habit) {
+    case UpHabit::MapCoordinates:
+      return {"of map coordinates", kByMap, kByMap};
+    case UpHabit::HeightField:
+      return {"of height fields", kByHeights, kByHeights};
+    case UpHabit::Format:
+      break;
+  }
+  return {};
 }
 
 std::string name_of(const Vec3& direction) {
@@ -204,11 +213,12 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   if (options.front) {
     request.front = up_vector(*options.front);
   }
-  FrameChoice choice{.is_of_map = up_of_map(model).has_value()};
+  FrameChoice choice{.up_habit =
+                         up_of_land(model).value_or(LandUp{.habit = UpHabit::Format}).habit};
   choice.orientation = evidence_of(shape).find(request);
   const DirectionChoice& up = choice.orientation.up;
   choice.frame = {axis_nearest(up.direction), axis_nearest(choice.orientation.front.direction)};
-  const HabitWords habit = words_for_up(choice.is_of_map);
+  const HabitWords habit = words_for_up(choice.up_habit);
   for (const std::string& note :
        {note_on(up, "up", usual_up, habit.of, "", "--up"), note_on_front(choice, options)}) {
     if (!note.empty()) {
@@ -223,11 +233,11 @@ std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
   const DirectionChoice& front = choice.orientation.front;
   const std::string name = name_of(front.direction);
   const bool is_behind = is_from_behind(front, eye);
-  std::string note =
-      note_on(front, "front", up_vector(default_front(choice.frame.up)),
-              up.source == "format" && !choice.is_of_map ? HabitWords{}.of : "for this up",
-              words_on_best_view(choice.orientation, options, eye),
-              up.source == "shape" ? "--up " + name_of(up.direction) + " --front" : "--front");
+  std::string note = note_on(
+      front, "front", up_vector(default_front(choice.frame.up)),
+      up.source == "format" && choice.up_habit == UpHabit::Format ? HabitWords{}.of : "for this up",
+      words_on_best_view(choice.orientation, options, eye),
+      up.source == "shape" ? "--up " + name_of(up.direction) + " --front" : "--front");
   if (!note.empty() || !is_behind) {
     return note;
   }
@@ -238,7 +248,7 @@ std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
 }
 
 std::string frame_summary(const FrameChoice& choice) {
-  return summary_of(choice.orientation.up, "up", words_for_up(choice.is_of_map)) + "; " +
+  return summary_of(choice.orientation.up, "up", words_for_up(choice.up_habit)) + "; " +
          summary_of(choice.orientation.front, "front", {});
 }
 

@@ -11,7 +11,7 @@
 #include "core/fingerprint.h"
 #include "core/json_text.h"
 #include "io/files.h"
-#include "pipeline/map_coordinates.h"
+#include "pipeline/land.h"
 #include "pipeline/option_echo.h"
 
 namespace vantage {
@@ -88,8 +88,11 @@ UpAxis default_up(ModelFormat format) {
 }
 
 UpAxis default_up(const Model& model) {
-  return model.usual_up ? axis_nearest(*model.usual_up)
-                        : up_of_map(model).value_or(default_up(model.format));
+  if (model.usual_up) {
+    return axis_nearest(*model.usual_up);
+  }
+  const std::optional<LandUp> land = up_of_land(model);
+  return land ? land->axis : default_up(model.format);
 }
 
 UpAxis default_front(UpAxis up) {

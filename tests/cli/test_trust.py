@@ -7,7 +7,7 @@ import unittest
 
 from png import read_png
 from program import MODELS, ProgramTest
-from shapes import boxes
+from shapes import boxes, off
 
 FAST = ("--search", "rapid", "--size", "64")
 DOUBTED = "plates.off"
@@ -82,6 +82,16 @@ class Doubts(ProgramTest):
         done, report = self.view("needle.off", "--strict", exit_code=1)
         self.assertRegex(report["doubts"][-1], "the picture shows nothing")
         self.assertTrue((self.dir / "out/best.png").exists(), done.err)
+
+    def test_an_empty_picture_of_the_worst_view_is_noted(self):
+        side = range(9)
+        corners = [(x, y, 0) for x in side for y in side]
+        faces = [(9 * x + y, 9 * x + y + 9, 9 * x + y + 10, 9 * x + y + 1) for x in side[:-1] for y in side[:-1]]
+        self.write("flat.off", off(corners, faces))
+        done, report = self.view("flat.off", "--strict")
+        self.assertEqual(report["doubts"], [])
+        self.assertIn("worst.png is next to empty: the model is too thin to show from there", report["warnings"])
+        self.assertIn("note: worst.png is next to empty", done.err)
 
     def test_a_picture_of_specks_is_told(self):
         self.write("far.off", boxes((0, 0, 0, 1, 1, 1), (50, 0, 0, 1, 1, 1)))

@@ -60,12 +60,16 @@ struct ReportedViewSet {
   [[nodiscard]] double way_rad() const { return way ? way->length_rad : tour.length_rad; }
 };
 
+/// Where a usual up comes from: the format, or that the model is land in coordinates of a map, or a height
+/// field.
+enum class UpHabit { Format, MapCoordinates, HeightField };
+
 /// The model's frame that a run uses, and why.
 struct FrameChoice {
-  ModelFrame frame{};                ///< As used.
-  Orientation orientation{};         ///< The same with sources, confidences and reasons.
-  bool is_of_map = false;            ///< The usual up is that of map coordinates, not the format's.
-  std::vector<std::string> notes{};  ///< One sentence for each guess, and for each unsure choice.
+  ModelFrame frame{};                  ///< As used.
+  Orientation orientation{};           ///< The same with sources, confidences and reasons.
+  UpHabit up_habit = UpHabit::Format;  ///< Whose the usual up is.
+  std::vector<std::string> notes{};    ///< One sentence for each guess, and for each unsure choice.
 };
 
 /// If options.up is Any: turns the model by standing_rotation(), adds a note with the quaternion, and

@@ -67,7 +67,7 @@ TEST(FrameChoice, HeightIsUpInCoordinatesOfAMap) {
   const FrameChoice terrain = choice_for(hills(in_utm), ModelFormat::Obj);
   EXPECT_EQ(terrain.frame.up, UpAxis::Z);
   EXPECT_EQ(terrain.orientation.up.source, "format");
-  EXPECT_TRUE(terrain.is_of_map);
+  EXPECT_EQ(terrain.up_habit, UpHabit::MapCoordinates);
   EXPECT_EQ(choice_for(with_y_up(hills(in_utm)), ModelFormat::Stl).frame.up, UpAxis::Y);
 }
 
@@ -85,9 +85,10 @@ TEST(FrameChoice, SaysThatMapCoordinatesAreWhyTheHeightIsUp) {
 TEST(FrameChoice, OtherFarPlacesAreNoMaps) {
   for (const Vec3& corner : {Vec3(567840.5, 120.0, 80.0), Vec3(2e5, 3e5, 4e5),
                              Vec3(900.0, 900.0, 0.0), Vec3(0.0, 5e6, 0.0)}) {
-    EXPECT_FALSE(choice_for(hills(corner), ModelFormat::Obj).is_of_map) << corner.transpose();
+    EXPECT_NE(choice_for(hills(corner), ModelFormat::Obj).up_habit, UpHabit::MapCoordinates)
+        << corner.transpose();
   }
-  EXPECT_FALSE(choice_for(hills({5e5, 5e6, 0.0}), ModelFormat::Gltf).is_of_map);
+  EXPECT_EQ(choice_for(hills({5e5, 5e6, 0.0}), ModelFormat::Gltf).up_habit, UpHabit::Format);
 }
 
 TEST(FrameChoice, IsTheFormatsWhereItsHabitHolds) {
