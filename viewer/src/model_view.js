@@ -3,16 +3,12 @@
 // Lengths are in radii of the enclosing sphere, around its centre.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
+import { Contraction } from './contraction.js';
 import { asBytes, asIndices, asPositions } from './decode.js';
+import { surface } from './surface.js';
 
 const PLAIN = new THREE.Color(0xc4c0ba);
 const BONE = new THREE.Color(0xc81e28);
-// Creases are worth splitting vertices for on coarse models, CAD parts mostly.
-const CREASE_LIMIT = 60000;
-const CREASE_RAD = (50 * Math.PI) / 180; // bends of scans up to this stay smooth, right angles sharp
-// Contracted surfaces are drawn thicker by so much on all sides, lest limbs that have become lines vanish.
-const THICKENING = 0.006;
 const FLIGHT_MS = 700;
 const KEY_STEP_RAD = Math.PI / 36;
 const KEY_ZOOM = 1.1;
@@ -37,19 +33,6 @@ function palette(table) {
   return texture;
 }
 
-function surface(part, positions) {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
-  const values = asBytes(part.significance);
-  const places = new Float32Array(2 * values.length).fill(0.5);
-  values.forEach((value, v) => {
-    places[2 * v] = (value + 0.5) / 256;
-  });
-  geometry.setAttribute('uv', new THREE.BufferAttribute(places, 2));
-  geometry.setIndex(new THREE.BufferAttribute(asIndices(part.indices), 1));
-  return geometry;
-}
-
 export class ModelView {
   /** @param onMove called with the unit direction to the eye and the up vector whenever the camera has moved. */
   constructor(canvas, data, onMove) {
@@ -66,7 +49,8 @@ export class ModelView {
     if (data.asset) {
       this.addAsset(data.asset);
     }
-    this.addHistory(data);
+    this.history = new Contraction(data.history, this.material);
+    this.scene.add(this.history.mesh);
     this.addSkeleton(data.skeleton);
     this.level = 0;
     this.look(data.views[0]);
@@ -86,12 +70,8 @@ export class ModelView {
 
   addSurface(data) {
     this.palette = palette(asBytes(data.colours));
-    const indexed = surface(data.mesh, asPositions(data.mesh.positions));
-    const coarse = indexed.index.count / 3 <= CREASE_LIMIT;
-    const geometry = coarse ? toCreasedNormals(indexed, CREASE_RAD) : indexed;
-    if (!coarse) {
-      geometry.computeVertexNormals();
-    }
+    const { mesh } = data;
+    const { geometry } = surface(asPositions(mesh.positions), asIndices(mesh.indices), { significance: asBytes(mesh.significance) });
     this.material = new THREE.MeshStandardMaterial({ map: this.palette, roughness: 0.75, side: THREE.DoubleSide });
     this.mesh = new THREE.Mesh(geometry, this.material);
     this.scene.add(this.mesh);
@@ -99,25 +79,18 @@ export class ModelView {
 
   /** The file's own faces in its materials. */
   addAsset(asset) {
-    const whole = new THREE.BufferGeometry();
-    whole.setAttribute('position', new THREE.BufferAttribute(asPositions(asset.positions), 3));
+    const values = {};
     if (asset.uvs) {
-      whole.setAttribute('uv', new THREE.BufferAttribute(new Float32Array(asBytes(asset.uvs).buffer), 2));
+      values.uv = new Float32Array(asBytes(asset.uvs).buffer);
     }
     if (asset.colours) {
       const bytes = asBytes(asset.colours);
-      const rgb = new Float32Array(bytes.length);
+      values.color = new Float32Array(bytes.length);
       for (let i = 0; i < bytes.length; i += 3) {
-        new THREE.Color().setRGB(bytes[i] / 255, bytes[i + 1] / 255, bytes[i + 2] / 255, THREE.SRGBColorSpace).toArray(rgb, i);
+        new THREE.Color().setRGB(bytes[i] / 255, bytes[i + 1] / 255, bytes[i + 2] / 255, THREE.SRGBColorSpace).toArray(values.color, i);
       }
-      whole.setAttribute('color', new THREE.BufferAttribute(rgb, 3));
     }
-    whole.setIndex(new THREE.BufferAttribute(asIndices(asset.indices), 1));
-    const coarse = whole.index.count / 3 <= CREASE_LIMIT;
-    const geometry = coarse ? toCreasedNormals(whole, CREASE_RAD) : whole;
-    if (!coarse) {
-      geometry.computeVertexNormals();
-    }
+    const { geometry } = surface(asPositions(asset.positions), asIndices(asset.indices), values);
     const textures = asset.textures.map((texture) => this.texture(texture));
     const materials = asset.groups.map((group, i) => {
       geometry.addGroup(group.start, group.count, i);
@@ -159,16 +132,6 @@ export class ModelView {
     }
     const emissive = new THREE.Color().setRGB(...(emission ?? [0, 0, 0]), THREE.LinearSRGBColorSpace);
     return new THREE.MeshStandardMaterial({ ...options, roughness: 0.75, emissive, emissiveMap: textures[glow] ?? null });
-  }
-
-  addHistory(data) {
-    const levels = data.history.levels.map(asPositions);
-    const geometry = surface(data.history, levels[0].slice());
-    geometry.computeVertexNormals();
-    const normals = geometry.attributes.normal.array.slice();
-    this.history = { levels, normals, mesh: new THREE.Mesh(geometry, this.material) };
-    this.history.mesh.visible = false;
-    this.scene.add(this.history.mesh);
   }
 
   addSkeleton({ nodes, edges }) {
@@ -222,22 +185,11 @@ export class ModelView {
     this.draw();
   }
 
-  /** @param level between two levels the positions are mixed. */
+  /** @param level of the contraction. */
   setLevel(level) {
-    const { levels, normals, mesh } = this.history;
-    const thickness = THICKENING * Math.min(1, level);
     this.level = level;
     if (level > 0) {
-      const low = Math.min(Math.floor(level), levels.length - 1);
-      const high = Math.min(low + 1, levels.length - 1);
-      const share = level - low;
-      const to = mesh.geometry.attributes.position;
-      for (let i = 0; i < to.array.length; ++i) {
-        to.array[i] = levels[low][i] * (1 - share) + levels[high][i] * share + thickness * normals[i];
-      }
-      to.needsUpdate = true;
-      mesh.geometry.computeVertexNormals();
-      mesh.geometry.computeBoundingSphere();
+      this.history.show(level);
     }
     this.choose();
   }
