@@ -234,13 +234,15 @@ struct ViewCommand {
                  const FrameChoice& choice, const ViewReport& report, const ViewOptions& options,
                  const OutputFolder& output, const StageSeconds& seconds) const {
     const MeshReport& check = shape.check;
-    std::string kind = check.closed ? "closed" : "open";
-    if (check.genus) {
-      kind += ", genus " + std::to_string(*check.genus);
+    std::string counts = plural(check.vertices, "point");
+    if (!shape.cloud) {
+      counts = plural(check.vertices, "vertex") + ", " + plural(check.faces, "face") + ", " +
+               plural(check.components, "component") + (check.closed ? ", closed" : ", open");
     }
-    session.tell(printable(loaded.name) + ": " + plural(check.vertices, "vertex") + ", " +
-                 plural(check.faces, "face") + ", " + plural(check.components, "component") + ", " +
-                 kind);
+    if (check.genus) {
+      counts += ", genus " + std::to_string(*check.genus);
+    }
+    session.tell(printable(loaded.name) + ": " + counts);
     session.tell("  skeleton    " + plural(shape.skeleton.graph.nodes.size(), "node") + ", " +
                  plural(cycle_count(shape.skeleton.graph), "cycle") + ", from " +
                  plural(shape.history.level_count(), "contraction level"));

@@ -155,7 +155,7 @@ void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loade
                camera_transforms_json(view->picture, view->size, std::string(name) + ".png"));
     // These two name the file.
     const Camera camera = camera_of_file(view->picture, loaded.turn);
-    output.add(stem + ".f3d.txt", camera_f3d(camera, view->size, file));
+    output.add(stem + ".f3d.txt", camera_f3d(camera, view->size, file, shape.cloud.has_value()));
     if (view->picture.projection == Projection::Perspective) {
       output.add(stem + ".model-viewer.html",
                  camera_model_viewer(camera, loaded.turn.transpose() * up_vector(report.up), file));

@@ -150,13 +150,15 @@ std::string camera_transforms_json(const Camera& camera, PictureSize size,
   return json_text(file, 2) + "\n";
 }
 
-std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model) {
+std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model,
+                       bool of_points) {
   const std::string file = (model.starts_with('-') ? "./" : "") + std::string(model);  // no option
   const Camera lens = with_view_angle(camera);
   return "f3d " + shell_quoted(file) + " --camera-position=" + triple(lens.eye) +
          " --camera-focal-point=" + triple(lens.target) + " --camera-view-up=" + triple(lens.up) +
          " --camera-view-angle=" + number_text(lens.fov_y_deg) +
-         " --resolution=" + std::to_string(size.width) + "," + std::to_string(size.height) + "\n";
+         " --resolution=" + std::to_string(size.width) + "," + std::to_string(size.height) +
+         (of_points ? " --point-sprites" : "") + "\n";
 }
 
 }  // namespace vantage

@@ -101,9 +101,9 @@ Json texture_json(const Texture& texture, const RunContext& run) {
   const Image image = share < 1.0 ? smaller_picture(texture.image, side(texture.image.width),
                                                     side(texture.image.height), run)
                                   : texture.image;
-  const bool is_small = texture.nearest || image.rgba.size() <= 4 * kSmallTexture;
-  return {{"picture", is_small ? "data:image/png;base64," + base64(png_bytes(image))
-                               : "data:image/webp;base64," + base64(webp_bytes(image))},
+  const bool keeps_colours = texture.nearest || image.rgba.size() <= 4 * kSmallTexture;
+  return {{"picture", keeps_colours ? "data:image/png;base64," + base64(png_bytes(image))
+                                    : "data:image/webp;base64," + base64(webp_bytes(image))},
           {"wrap",
            {kWraps[static_cast<std::size_t>(texture.wrap_u)],
             kWraps[static_cast<std::size_t>(texture.wrap_v)]}},

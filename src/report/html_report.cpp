@@ -47,6 +47,9 @@ constexpr double kTourStepDeg = 4.0;
 /// Size of the pictures in the filmstrip, px.
 constexpr int kStripWidth = 288;
 constexpr int kStripHeight = 216;
+/// Formats that f3d reads, from 1.3 on.
+constexpr std::array<std::string_view, 13> kOfF3d{
+    "3ds", "dae", "dxf", "fbx", "glb", "gltf", "iges", "obj", "off", "ply", "pts", "step", "stl"};
 /// From there and so high a parallel projection shows the whole unit sphere.
 constexpr double kParallelDistance = 2.0;
 constexpr double kParallelHeight = 2.1;
@@ -213,11 +216,13 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
                {"score_fraction", view.score_fraction}};
   json.update(camera_part(view.picture, static_cast<double>(size.width) / size.height, frame));
   json["picture"] = "data:image/png;base64," + base64(png);
-  json["cameras"] = {
-      {"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
-      {"NeRF transforms.json",
-       camera_transforms_json(view.picture, size, std::string(name) + ".png")},
-      {"f3d", camera_f3d(camera_of_file(view.picture, model.turn), size, file_of(model))}};
+  json["cameras"] = {{"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
+                     {"NeRF transforms.json",
+                      camera_transforms_json(view.picture, size, std::string(name) + ".png")}};
+  if (std::find(kOfF3d.begin(), kOfF3d.end(), format_name(model)) != kOfF3d.end()) {
+    json["cameras"]["f3d"] = camera_f3d(camera_of_file(view.picture, model.turn), size,
+                                        file_of(model), shape.cloud.has_value());
+  }
   return json;
 }
 
@@ -249,10 +254,11 @@ void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape,
   data["tour"] = {{"degrees", degrees}, {"views", views.size()}, {"poses", poses}};
 }
 
-/// The line for web pages beside the other cameras of a view.
+/// The element for web pages, which show glTF alone, beside the other cameras of a view.
 void add_web_camera(Json& view, const ReportedView& of, const ViewReport& report,
                     const Model& model) {
-  if (of.picture.projection == Projection::Perspective) {
+  if (of.picture.projection == Projection::Perspective &&
+      (model.format == ModelFormat::Gltf || model.format == ModelFormat::Glb)) {
     view["cameras"]["model-viewer"] =
         camera_model_viewer(camera_of_file(of.picture, model.turn),
                             model.turn.transpose() * up_vector(report.up), file_of(model));

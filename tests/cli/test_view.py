@@ -192,9 +192,14 @@ class View(ProgramTest):
         properties = "".join(f"property {kind}\n" for kind in ("float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"))
         self.write("pole.ply", f"ply\nformat ascii 1.0\nelement vertex 230\n{properties}end_header\n"
                    + "".join(f"{x} {y} {z} 220 20 10\n" for x, y, z in ball_with_pole()))
-        self.vantage("view", "pole.ply", "-o", "out", "--size", "32", "--search", "rapid")
+        told = self.vantage("view", "pole.ply", "-o", "out", "--size", "32", "--search", "rapid")
+        self.assertIn("pole: 230 points\n", told.out + told.err)
         page = (self.dir / "out" / "report.html").read_text()
         data = json.loads(page.split('id="data">')[1].split("</script>")[0])
+        line = (self.dir / "out" / "camera-best.f3d.txt").read_text()
+        self.assertTrue(line.endswith(" --point-sprites\n"), line)  # without which f3d shows no points
+        self.assertEqual(data["views"][0]["cameras"]["f3d"], line)
+        self.assertNotIn("model-viewer", data["views"][0]["cameras"])  # it shows glTF alone
         for part in ("mesh", "asset"):
             places = struct.iter_unpack("<3H", base64.b64decode(data[part]["positions"]))
             heights = [data["frame"]["centre"][1] + data["frame"]["radius"] * 1.25 * (2 * y / 65535 - 1) for _, y, _ in places]

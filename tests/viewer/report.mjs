@@ -56,6 +56,15 @@ export async function cameraText(page, format) {
   return page.inputValue('#camera');
 }
 
+/** All cameras of the box, by their formats. */
+export async function cameraTexts(page) {
+  const texts = new Map();
+  for (const format of await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value))) {
+    texts.set(format, await cameraText(page, format));
+  }
+  return texts;
+}
+
 /** Where a camera for Blender stands. */
 export const blenderLocation = (text) => text.match(/location = \(([^)]+)\)/)[1].split(', ').map(Number);
 

@@ -7,7 +7,7 @@ import { before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import * as zlib from 'node:zlib';
 import { glb } from './glb.mjs';
-import { blenderLocation, camera, cameraText, clickSphere, desktop, distance, drawn, folder, models, pageOf, pixels, unit,
+import { blenderLocation, camera, cameraText, cameraTexts, clickSphere, desktop, distance, drawn, folder, models, pageOf, pixels, unit,
   vantage, viewOf } from './report.mjs';
 
 const horse = path.join(models, 'horse.ply');
@@ -23,6 +23,11 @@ const reports = {
   row: ['row.obj', ...rapid, '--focus', 'b1', '--projection', 'orthographic'],
   lamp: ['lamp.glb', '--size', '160x120', '--contraction', 'exact', '--search', 'rapid'],
   box: ['box.obj', '--up', 'any', '--size', '160x120', '--contraction', 'exact'],
+  ball: ['ball.obj', ...rapid],
+  cloud: ['cloud.xyz', ...rapid],
+  speck: ['speck.obj', ...rapid, '--contraction', 'exact'],
+  // In the axes of glTF, as those of <model-viewer>.
+  lampFlat: ['lamp.glb', ...rapid, '--projection', 'orthographic', '--contraction', 'exact'],
   large: [path.join(process.env.VANTAGE_DATA ?? '', 'paper', 'armadillo_172966_loop.ply'), ...rapid],
 };
 
@@ -92,7 +97,34 @@ function writeSoup(count) {
   fs.writeFileSync(path.join(folder, 'soup.obj'), [...walls, ...faces, ''].join('\n'));
 }
 
+/** A ball of 2 n² faces. \param placed where its points are put. \param flip every so manieth face is wound the other way. */
+function ball(n, placed, flip) {
+  const at = (i, j) => i * 2 * n + (j % (2 * n)) + 1;
+  const rows = Array.from({ length: n + 1 }, (_, i) => i);
+  const turns = Array.from({ length: 2 * n }, (_, j) => j);
+  const corners = rows.flatMap((i) => turns.map((j) => [(Math.PI * i) / n, (Math.PI * j) / n]))
+    .map(([t, p]) => placed([Math.sin(t) * Math.cos(p), Math.cos(t), Math.sin(t) * Math.sin(p)]));
+  const faces = rows.slice(0, n).flatMap((i) => turns.flatMap((j) => [
+    ...(i > 0 ? [[at(i, j), at(i, j + 1), at(i + 1, j)]] : []),
+    ...(i + 1 < n ? [[at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)]] : [])]));
+  return [...corners.map((p) => `v ${p.map((x) => x.toFixed(7)).join(' ')}`),
+    ...faces.map(([a, b, c], f) => (f % flip === 0 ? `f ${a} ${c} ${b}` : `f ${a} ${b} ${c}`)), ''].join('\n');
+}
+
+function writeBalls() {
+  fs.writeFileSync(path.join(folder, 'ball.obj'), ball(24, (p) => p, 11));
+  const spiral = Array.from({ length: 3000 }, (_, i) => {
+    const z = 1 - (2 * i + 1) / 3000;
+    return [Math.sqrt(1 - z * z) * Math.cos(2.399963 * i), Math.sqrt(1 - z * z) * Math.sin(2.399963 * i), z];
+  });
+  fs.writeFileSync(path.join(folder, 'cloud.xyz'), spiral.map((p) => `${p.join(' ')}\n`).join(''));
+  const ends = 'v -1 0 0\nv 1 0 0\nv 0 1 0\n'; // of a plate as large as the sphere
+  const small = ball(8, (p) => [0.31 + 0.004 * p[0], -0.29 + 0.004 * p[1], 0.33 + 0.004 * p[2]], Infinity);
+  fs.writeFileSync(path.join(folder, 'speck.obj'), `${small}${ends}f -3 -2 -1\n`);
+}
+
 before(() => {
+  writeBalls();
   fs.copyFileSync(horse, path.join(folder, `${markup}.ply`));
   writeSoup(340);
   writeBox();
@@ -125,12 +157,28 @@ for (const name of ['far', 'flat']) {
     const scale = (await cameraText(page, 'Blender')).match(/ortho_scale = (.+)/)?.[1];
     assert.equal(scale === undefined, name === 'far');
     assert.ok(scale === undefined || Math.abs(Number(scale) - json.best.frame.height) < 1e-5 * json.best.frame.height, scale);
-    const formats = await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value));
-    assert.equal(formats.includes('model-viewer'), name === 'far'); // it knows no parallel lines of sight
     await clickSphere(page);
     assert.ok(await drawnHeight(page) > 0.3);
   });
 }
+
+test('keys zoom no further than to where the model is still seen, and back', async () => {
+  const [page] = await opened('flat');
+  const press = (key) => page.evaluate((pressed) => {
+    for (let i = 0; i < 400; ++i) {
+      document.body.dispatchEvent(new KeyboardEvent('keydown', { key: pressed, bubbles: true }));
+    }
+  }, key);
+  await press('+');
+  assert.ok(await drawnHeight(page) > 0.9);
+  await press('-');
+  const low = await drawnHeight(page);
+  assert.ok(low > 0.01 && low < 0.5, String(low));
+  for (let i = 0; i < 30; ++i) {
+    await page.keyboard.press('+');
+  }
+  assert.ok(await drawnHeight(page) > 2 * low);
+});
 
 test('a name with markup is shown as text', async () => {
   const [page] = await opened('people');
@@ -265,6 +313,79 @@ test('cameras that name the file fit it where --up any has turned the model', as
   assert.ok(distance(eye, json.best.eye) > 1, 'the model was turned');
   const location = blenderLocation(await cameraText(page, 'Blender'));
   assert.ok(distance(location, [eye[0], -eye[2], eye[1]]) < 1e-4, location.join(' '));
+});
+
+for (const name of ['ball', 'cloud']) {
+  test(`a ball looks smooth, whichever way its faces are wound, and as it is contracted: ${name}`, async () => {
+    const [page] = await opened(name);
+    const steps = () => pixels(page, ({ data, width, height }) => { // of brightness from pixel to pixel, away from the outline
+      let rough = 0;
+      let count = 0;
+      for (let y = 4; y + 4 < height; ++y) {
+        for (let x = 4; x + 4 < width; ++x) {
+          const i = 4 * (y * width + x);
+          if ([-16, 16, -16 * width, 16 * width].every((away) => data[i + away + 3] === 255)) {
+            rough += Math.abs(data[i] - data[i + 4]) > 12 ? 1 : 0;
+            count += 1;
+          }
+        }
+      }
+      return count > 10000 ? rough / count : Infinity;
+    });
+    for (const level of [0, 0.5, 1]) {
+      await page.evaluate((to) => window.vantage.model.setLevel(to), level);
+      const rough = await steps();
+      assert.ok(rough < 2e-4, `level ${level}: ${rough}`);
+    }
+  });
+}
+
+test('small parts have normals of their own', async () => {
+  const [page, { model }] = await opened('speck');
+  const least = await page.evaluate(() => {
+    const { geometry } = window.vantage.model.mesh;
+    const { position, normal } = geometry.attributes;
+    const faces = window.vantage.data.mesh.faces;
+    const at = (of, corner) => [0, 1, 2].map((axis) => of.array[3 * (geometry.index ? geometry.index.array[corner] : corner) + axis]);
+    const corners = Array.from({ length: 3 * (faces - 1) }, (_, c) => c); // the plate is the last face
+    const points = corners.map((c) => at(position, c));
+    const middle = [0, 1, 2].map((axis) => {
+      const all = points.map((p) => p[axis]);
+      return (Math.min(...all) + Math.max(...all)) / 2;
+    });
+    return Math.min(...corners.map((c, i) => {
+      const out = points[i].map((x, axis) => x - middle[axis]);
+      return Math.abs(at(normal, c).reduce((sum, x, axis) => sum + x * out[axis], 0)) / Math.hypot(...out);
+    }));
+  });
+  assert.ok(model.faces > 100);
+  assert.ok(least > 0.99, String(least));
+});
+
+test('a cloud has points, and no camera for programs that do not read it', async () => {
+  const [page] = await opened('cloud');
+  assert.equal(await page.textContent('#summary'), '3,000 points');
+  assert.match(await page.textContent('#numbers'), /shown herefaces made between the points, for display/);
+  assert.deepEqual([...(await cameraTexts(page)).keys()], ['glTF', 'NeRF transforms.json']);
+  assert.notEqual(await page.inputValue('#camera'), '');
+});
+
+test('a camera for model-viewer is there of glTF, unless lines of sight are parallel', async () => {
+  const [page, json] = await opened('lamp');
+  const files = fs.readdirSync(path.join(folder, 'lamp')).filter((name) => name.startsWith('camera-best.'));
+  const texts = await cameraTexts(page);
+  for (const name of files) {
+    assert.ok([...texts.values()].includes(fs.readFileSync(path.join(folder, 'lamp', name), 'utf8')), name);
+  }
+  const numbers = (name) => texts.get('model-viewer').match(new RegExp(`${name}="([^"]+)"`))[1].split(' ').map(parseFloat);
+  const [theta, phi, away] = numbers('camera-orbit');
+  const target = numbers('camera-target');
+  const [t, p] = [theta, phi].map((x) => (x * Math.PI) / 180);
+  const eye = [Math.sin(p) * Math.sin(t), Math.cos(p), Math.sin(p) * Math.cos(t)].map((x, i) => target[i] + away * x);
+  assert.equal(json.up, 'y'); // so that its axes are those of glTF
+  assert.ok(distance(eye, json.best.eye) < 1e-4 * json.camera.distance, eye.join(' '));
+  const [flat] = await opened('lampFlat');
+  assert.ok(!(await cameraTexts(flat)).has('model-viewer'));
 });
 
 test('shows a large model within seconds', { skip: process.env.VANTAGE_DATA ? false : 'NOTHING WAS TESTED: VANTAGE_DATA is not set' }, async () => {

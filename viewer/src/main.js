@@ -47,12 +47,13 @@ model = new ModelView(element('model'), data, (direction, up) => {
   const best = { angle: direction.angleTo(bestEye), value: view.best.objective };
   panel.showDirection(direction, score, view.total,
     sphere.hasObjective && best.value > 0 ? valueNear(direction, objective, best) / best.value : undefined);
-});
-const press = panel.fillViews(data.views, (picked) => {
+}, () => press(''));
+function pick(picked) {
   press(picked.name);
   showCamera(picked);
   model.fly(picked);
-});
+}
+const press = panel.fillViews(data.views, pick);
 press(data.views[0].name);
 model.moved();
 
@@ -96,7 +97,13 @@ function reset() {
   if (sphere.hasObjective) {
     showOnSphere('objective');
   }
+  for (const input of document.querySelectorAll('input[name=goal], #epsilon')) {
+    input.checked = input.defaultChecked;
+    input.value = input.defaultValue;
+  }
+  replay(false);
   press(data.views[0].name);
+  element('format').selectedIndex = 0;
   showCamera(data.views[0]);
   model.fly(data.views[0]);
 }
@@ -213,19 +220,19 @@ const KEYS = {
   r: reset,
 };
 document.addEventListener('keydown', (event) => {
-  const typed = ['SELECT', 'TEXTAREA'].includes(event.target.tagName);
-  const pressed = event.key === ' ' && ['INPUT', 'BUTTON'].includes(event.target.tagName);
-  if (typed || pressed || event.ctrlKey || event.metaKey || event.altKey) {
+  const { tagName, type } = event.target;
+  const isPressed = event.key === ' ' && (tagName === 'BUTTON' || ['checkbox', 'radio'].includes(type));
+  if (tagName === 'SELECT' || isPressed || event.ctrlKey || event.metaKey || event.altKey) {
     return;
   }
-  const ownArrows = ['range', 'radio'].includes(event.target.type); // sliders and choices move by them, too
+  const ownArrows = ['range', 'radio', 'textarea'].includes(type); // which move by them, too
   if (!ownArrows && model.moveByKey(event.key)) {
     event.preventDefault();
     return;
   }
-  const digit = Number(event.key);
-  if (digit >= 1 && digit <= data.views.length) {
-    document.querySelectorAll('.view')[digit - 1].click();
+  const picked = data.views.find(({ name }) => panel.keyOf(name) === event.key);
+  if (picked) {
+    pick(picked);
   } else if (event.key === ' ') {
     event.preventDefault();
     showAnalysis(true);

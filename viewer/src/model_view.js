@@ -12,6 +12,9 @@ const BONE = new THREE.Color(0xc81e28);
 const FLIGHT_MS = 700;
 const KEY_STEP_RAD = Math.PI / 36;
 const KEY_ZOOM = 1.1;
+// Half of what is seen at most and at least, in radii, where lines of sight are parallel.
+const MOST_HALF = 10;
+const LEAST_HALF = 0.02;
 const POLE_RAD = 0.01; // keys turn the eye no nearer to the axis, where it would look from the other side
 // All that is drawn lies within so many radii of the centre.
 const REACH = 1.5;
@@ -34,10 +37,12 @@ function palette(table) {
 }
 
 export class ModelView {
-  /** @param onMove called with the unit direction to the eye and the up vector whenever the camera has moved. */
-  constructor(canvas, data, onMove) {
+  /** @param onMove called with the unit direction to the eye and the up vector whenever the camera has moved.
+   *  @param onLeave called when the reader has left the view that was flown to. */
+  constructor(canvas, data, onMove, onLeave) {
     this.canvas = canvas;
     this.onMove = onMove;
+    this.onLeave = onLeave;
     this.up = new THREE.Vector3(...data.up);
     this.scene = new THREE.Scene();
     this.aspect = 1; // of the window
@@ -197,6 +202,7 @@ export class ModelView {
   /** Stands at a view's camera at once. */
   look(view) {
     this.stop();
+    this.taken = false;
     this.controls?.dispose();
     this.camera.position.set(...view.eye);
     this.camera.zoom = 1;
@@ -209,20 +215,32 @@ export class ModelView {
     this.controls.minDistance = 0.2;
     this.controls.maxDistance = Math.max(20, 2 * this.camera.position.length());
     this.controls.addEventListener('start', () => this.take());
-    this.controls.addEventListener('change', () => this.moved());
+    this.controls.addEventListener('change', () => {
+      if (this.taken) {
+        this.onLeave();
+      }
+      this.moved();
+    });
     this.controls.update();
     this.moved();
   }
 
   /** Leaves the views: from now on the reader turns the model, which stands upright. */
   take() {
+    if (this.flight !== undefined) {
+      this.onLeave();
+    }
     this.stop();
+    this.taken = true;
     this.camera.up.copy(this.up);
+    this.controls.minZoom = Math.min(0.5, this.half / MOST_HALF);
+    this.controls.maxZoom = Math.max(2, this.half / LEAST_HALF);
   }
 
   /** Flies along the great circle to a view. The reader may take over at any moment: all stands as it is seen then. */
   fly(view, done) {
     this.stop();
+    this.taken = false;
     if (wantsNoMotion()) {
       this.look(view);
       done?.();
@@ -315,13 +333,14 @@ export class ModelView {
       return false;
     }
     this.take();
+    this.onLeave();
     const offset = this.camera.position.clone().sub(this.controls.target);
     if (turns[key]) {
       this.turn(offset, ...turns[key].map((steps) => steps * KEY_STEP_RAD));
     } else if (this.camera.isPerspectiveCamera) {
       offset.divideScalar(zooms[key]);
     } else {
-      this.camera.zoom *= zooms[key];
+      this.camera.zoom = THREE.MathUtils.clamp(this.camera.zoom * zooms[key], this.controls.minZoom, this.controls.maxZoom);
     }
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();

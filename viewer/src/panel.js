@@ -13,6 +13,8 @@ function make(tag, text, parent) {
 }
 
 const short = (x) => (Math.abs(x) >= 1000 ? x.toFixed(0) : Number(x.toPrecision(4)).toString());
+const counted = (n) => n.toLocaleString('en');
+const isCloud = (model) => model.faces === 0;
 const percent = (x) => `${(100 * x).toFixed(1)} %`;
 
 export function fillHeader(view) {
@@ -20,9 +22,13 @@ export function fillHeader(view) {
   document.title = `${model.name} · Vantage`;
   element('name').textContent = model.name;
   const kind = model.closed ? `closed, genus ${model.genus ?? '–'}` : 'open';
-  element('summary').textContent =
-    `${model.vertices.toLocaleString('en')} vertices · ${model.faces.toLocaleString('en')} faces · ${kind}`;
+  element('summary').textContent = isCloud(model)
+    ? `${counted(model.vertices)} points`
+    : `${counted(model.vertices)} vertices · ${counted(model.faces)} faces · ${kind}`;
 }
+
+/** The key that picks a view, by its label. */
+export const keyOf = (name) => ({ best: '1', worst: 'w' })[name] ?? name;
 
 export function fillViews(views, onPick) {
   const buttons = views.map((view) => {
@@ -30,6 +36,9 @@ export function fillViews(views, onPick) {
     button.className = 'view';
     button.type = 'button';
     button.dataset.view = view.name;
+    if (keyOf(view.name).length === 1) {
+      button.title = `Key ${keyOf(view.name)}`;
+    }
     const picture = document.createElement('img');
     picture.src = view.picture;
     picture.alt = `${view.name} view`;
@@ -56,8 +65,10 @@ export function fillNumbers(data) {
     ['up axis', view.up],
     ['version', view.vantage],
   ];
-  if (data.mesh.faces < view.model.faces) {
-    rows.push(['shown here', `${data.mesh.faces.toLocaleString('en')} of ${view.model.faces.toLocaleString('en')} faces, more where significance is high`]);
+  if (isCloud(view.model)) {
+    rows.push(['shown here', 'faces made between the points, for display']);
+  } else if (data.mesh.faces < view.model.faces) {
+    rows.push(['shown here', `${counted(data.mesh.faces)} of ${counted(view.model.faces)} faces, more where significance is high`]);
   }
   for (const [name, value] of rows) {
     const row = document.createElement('tr');
@@ -122,11 +133,13 @@ export function fillCameras({ views, frame, turn, view: json }) {
   };
   element('format').addEventListener('change', () => show());
   element('copy').addEventListener('click', async () => {
-    element('camera').select();
     try {
       await navigator.clipboard.writeText(element('camera').value);
-    } catch {
-      document.execCommand('copy'); // pages opened from disk may not use the clipboard
+    } catch { // pages opened from disk may not use the clipboard
+      const focused = document.activeElement;
+      element('camera').select();
+      document.execCommand('copy');
+      focused.focus();
     }
     element('copy').textContent = 'Copied';
     setTimeout(() => { element('copy').textContent = 'Copy'; }, 1200);

@@ -33,8 +33,9 @@ std::string camera_transforms_json(const Camera& camera, PictureSize size,
                                    std::string_view image_name);
 
 /// Command line that opens `model` in f3d with this camera, in a window of that size. An orthographic
-/// camera becomes one from far away, as f3d has no height for it.
-std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model);
+/// camera becomes one from far away, as f3d has no height for it. \param of_points the model has no faces.
+std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model,
+                       bool of_points = false);
 
 /// Reads a camera back: a glTF with a camera node, a transforms.json, or our view.json.
 /// \throw FormatError

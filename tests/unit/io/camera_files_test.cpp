@@ -171,6 +171,12 @@ TEST(CameraF3d, ShowsAnOrthographicPictureFromFarAway) {
   EXPECT_THAT(line, Not(HasSubstr("orthographic")));  // f3d 1.3 ends at an option that it has not
 }
 
+TEST(CameraF3d, ShowsPointsOfClouds) {
+  const Camera camera = slanted(Projection::Perspective);
+  EXPECT_THAT(camera_f3d(camera, {640, 480}, "a.ply", true), HasSubstr(" --point-sprites\n"));
+  EXPECT_THAT(camera_f3d(camera, {640, 480}, "a.ply"), Not(HasSubstr("points")));
+}
+
 TEST(CameraF3d, NamesNoModelAsAnOption) {
   EXPECT_THAT(camera_f3d(slanted(Projection::Perspective), {640, 480}, "-x.obj"),
               HasSubstr("f3d './-x.obj' --camera-position"));
