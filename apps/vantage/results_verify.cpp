@@ -126,6 +126,7 @@ class Verification {
       complain(record.key + ": its results, " + folder + ", are not there; run the batch again");
       return;
     }
+    bool has_flawed_view = false;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(root_.path_of(folder), error)) {
       const std::string name = entry.path().filename().string();
@@ -133,7 +134,11 @@ class Verification {
               flaw_of(name, bytes_of(std::string(folder).append("/").append(name)));
           !flaw.empty()) {
         complain_of(name, flaw);
+        has_flawed_view = has_flawed_view || name == "view.json";
       }
+    }
+    if (has_flawed_view) {
+      return;
     }
     const Json view = batch::parsed_json(bytes_of(folder + "/view.json"));
     if (!view.is_object()) {

@@ -56,8 +56,9 @@ class Verify(ProgramTest):
         self.assertEqual(self.damaged("camera-best.gltf", camera[:-7]),
                          [f"m1.off: models/m1/camera-best.gltf has {len(camera) - 7} bytes, not {len(camera)}{remedy}"])
         self.assertEqual(self.damaged("view.json", b'{"vantage": '),
-                         [f"m1.off: models/m1/view.json is no JSON{remove}",
-                          f"m1.off: models/m1/view.json is not there or damaged{remove}"])
+                         [f"m1.off: models/m1/view.json is no JSON{remove}"])
+        self.assertEqual(self.damaged("view.json", b""), [f"m1.off: models/m1/view.json is empty{remove}"])
+        self.assertEqual(self.damaged("view.json", b"[]"), [f"m1.off: models/m1/view.json is not there or damaged{remove}"])
         other = (self.dir / "out/models/m2/view.json").read_bytes()
         self.assertEqual(self.damaged("view.json", other), [f"m1.off: models/m1/view.json is not what its record says{remedy}"])
 
