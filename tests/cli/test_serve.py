@@ -230,6 +230,8 @@ class Serve(ProgramTest):
                                        "Connection: close\r\n\r\n".encode()).split(b"\r\n\r\n", 1)
                 self.assertTrue(head.startswith(b"HTTP/1.1 200"), (wanted[:40], head))
                 self.assertEqual(len(body), size)
+            none = self.send(address, b"GET /one/best.png HTTP/1.1\r\nHOST\r\nRange: bytes=5-2\r\nConnection: close\r\n\r\n")
+            self.assertTrue(none.startswith(b"HTTP/1.1 416"), none)
 
     def test_a_request_larger_than_a_page_needs_is_cut_off(self):
         with self.served(self.results()) as address:

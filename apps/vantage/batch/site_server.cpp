@@ -64,7 +64,8 @@ bool is_own_name(const std::string& host) {
   return name == kLoopback || name == "localhost";
 }
 
-/// Whether a part is asked for that begins beyond the end. Any other range is answered by the whole.
+/// Whether a part is asked for that begins beyond the end. Any other range is answered by the whole, but for what is
+/// none, as 5-2, which the library refuses before it asks.
 bool is_beyond(const httplib::Request& request, std::size_t size) {
   httplib::Ranges ranges;
   if (!request.has_header("Range") ||
