@@ -56,6 +56,17 @@ class Faults(ProgramTest):
     def test_batches(self):
         self.check(faults.BatchParent)
 
+    def test_a_store_on_a_full_disk_says_so(self):
+        job = faults.BatchParent(self.dir)
+        _, _, calls = job.undisturbed()
+        of_store = set()
+        for call in faults.sampled(calls, 24):
+            out = self.dir / f"full-{call}"
+            done = job.run(out, at=call, error="ENOSPC", stays=1)
+            of_store |= {line.partition("results.sqlite")[2] for line in done.stderr.decode().splitlines()
+                         if "results.sqlite" in line and "No space left" in line}
+        self.assertEqual(of_store, {": cannot hold more results; make room and run it again (No space left on device)"})
+
     def test_workers_of_batches(self):
         self.check(faults.BatchWorker, ("ENOSPC", "EIO", "KILL"))
 

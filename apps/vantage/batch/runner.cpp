@@ -31,8 +31,6 @@ constexpr std::size_t kMostWaiting = 1024;
 constexpr std::size_t kMostUnpacked = 64;
 constexpr std::uint64_t kMostUnpackedBytes = 1'000'000'000;
 
-constexpr const char* kNoRoom = "cannot hold more results; make room and run it again";
-
 std::int64_t now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
              std::chrono::system_clock::now().time_since_epoch())

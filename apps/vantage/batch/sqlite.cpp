@@ -8,6 +8,8 @@
 
 #include "vantage/core/error.h"
 
+#include "batch/result_book.h"
+
 namespace vantage::batch {
 
 namespace {
@@ -68,7 +70,7 @@ void Database::fail(const std::string& doing) const {
   const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
   const int system = handle_ ? sqlite3_system_errno(handle_.get()) : ENOMEM;
   if (code == SQLITE_FULL || (code == SQLITE_IOERR_WRITE && system == ENOSPC) || system == ENOSPC) {
-    throw IoError(path_, doing, ENOSPC);
+    throw IoError(path_, kNoRoom, ENOSPC);
   }
   const char* why = handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory";
   throw IoError(path_, doing + ": " + why);
@@ -113,8 +115,8 @@ Statement& Statement::bind(int index, double number) {
 bool Statement::step() {
   const int code = sqlite3_step(statement_.get());
   if (code != SQLITE_ROW && code != SQLITE_DONE) {
-    database_->fail(sqlite3_stmt_readonly(statement_.get()) != 0 ? "cannot be read"
-                                                                 : "cannot be written");
+    // What gives rows asks. SQLite counts the end of a transaction, too, as something that only reads.
+    database_->fail(columns() > 0 ? "cannot be read" : "cannot be written");
   }
   return code == SQLITE_ROW;
 }
