@@ -11,6 +11,7 @@ import subprocess
 import unittest
 
 from hostile import FAST, HostileTest
+from png import png
 from program import PROGRAM
 from program import contract_quickly as setUpModule
 from shapes import box
@@ -151,6 +152,10 @@ class ForeignFiles(HostileTest):
             self.assert_refused("batch", "a.off", "-o", "out", *FAST, pattern="--no-overview")
             self.assert_refused("results", "merge", "out", pattern="--no-overview")
             (self.dir / "out" / name).unlink()
+        for width, height in ((176, 500), (177, 194), (8, 194)):  # sheets of one row are 194 high, and 168 wider a tile
+            self.write("out/contact-sheet-0001.png", png(b"\1\2\3\4", width, height))
+            self.assert_refused("batch", "a.off", "-o", "out", *FAST, pattern="--no-overview")
+        (self.dir / "out/contact-sheet-0001.png").unlink()
         for name in ("index-2.html", "contact-sheet-0002.png"):
             self.write(f"out/{name}", "mine")
         self.batch("a.off")

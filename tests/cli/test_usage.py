@@ -301,7 +301,7 @@ class Tables(ProgramTest):
         self.write("in/cup.off", box(1.0))
         self.vantage("orient", "in/cup.off", "--up", "y", "-o", "in/cup.ply")
         self.vantage("batch", "in", "-o", "b", "--search", "rapid", "--size", "64")
-        rows = read_png((self.dir / "b/contact-sheet-0001.png").read_bytes())[2]
+        width, _, rows = read_png((self.dir / "b/contact-sheet-0001.png").read_bytes())
         gap, side, caption = 8, 160, 18  # of the sheet's tiles
 
         def names(tile):
@@ -309,7 +309,18 @@ class Tables(ProgramTest):
             return [row[4 * left:4 * (left + side)] for row in rows[gap + side:gap + side + caption]]
 
         self.assertNotEqual(names(0), names(1))
-        self.assertEqual(names(2), [b"\xff" * 4 * side] * caption)  # an empty tile, to know where they are
+        for tile in range(2):  # they are where they are looked for
+            self.assertGreater(len(set(b"".join(names(tile)))), 2)
+        self.assertEqual(width, gap + 2 * (side + gap))
+
+    def test_a_contact_sheet_is_as_wide_as_its_models_need(self):
+        names = [self.write(f"{i:02}.off", box(1.0 + i)).name for i in range(11)]
+        gap, side, caption = 8, 160, 18
+        for count, columns, tiles in ((1, 1, 1), (9, 9, 1), (11, 10, 2), (2, 2, 1)):
+            self.vantage("batch", *names[:count], "-o", "b", "--search", "rapid", "--size", "64", "--forget")
+            width, height, _ = read_png((self.dir / "b/contact-sheet-0001.png").read_bytes())
+            self.assertEqual(width, gap + columns * (side + gap), count)
+            self.assertEqual(height, gap + tiles * (side + caption + gap), count)
 
 
 class StandardInput(ProgramTest):

@@ -40,7 +40,11 @@ std::string sheet_name(std::size_t sheet) {
   return name.data();
 }
 
-constexpr int kSheetWidth = kTileColumns * (kThumbnailSide + kGap) + kGap;
+constexpr int width_of(int columns) {
+  return columns * (kThumbnailSide + kGap) + kGap;
+}
+
+constexpr int kSheetWidth = width_of(kTileColumns);
 
 /// Whether a file begins as a page of write_overview() does.
 bool is_page(const ConfinedFolder& folder, const std::string& name) {
@@ -60,11 +64,19 @@ bool is_sheet(const ConfinedFolder& folder, const std::string& name) {
     }
     return value;
   };
-  return head.size() == kHeaderBytes && head.starts_with("\x89PNG\r\n\x1A\n") &&
-         head.ends_with("\x08\x06") && number(16) == kSheetWidth &&
-         (number(20) % kTileHeight == kGap ||
-          number(20) % (kThumbnailSide + kGap) == kGap) &&  // of version 0.1: without names
-         number(20) < kSheetWidth;
+  if (head.size() != kHeaderBytes || !head.starts_with("\x89PNG\r\n\x1A\n") ||
+      !head.ends_with("\x08\x06")) {
+    return false;
+  }
+  const int width = number(16);
+  const int height = number(20);
+  if (width == kSheetWidth) {
+    return height < kSheetWidth &&
+           (height % kTileHeight == kGap ||
+            height % (kThumbnailSide + kGap) == kGap);  // of version 0.1: without names
+  }
+  return width > kGap && width < kSheetWidth && width % (kThumbnailSide + kGap) == kGap &&
+         height == kTileHeight + kGap;
 }
 
 using IsOurs = bool (*)(const ConfinedFolder&, const std::string&);
@@ -148,14 +160,26 @@ class ContactSheets {
   }
 
   void write() {
-    // The last sheet is as long as it is full.
+    // The last sheet is as wide and as long as it is full.
     image_.height = (tile_ + kTileColumns - 1) / kTileColumns * kTileHeight + kGap;
+    narrow(width_of(std::min(tile_, kTileColumns)));
     image_.rgba.resize(4 * static_cast<std::size_t>(image_.width) *
                        static_cast<std::size_t>(image_.height));
     write_checked(folder_, sheet_name(sheet_), png_bytes(image_), is_sheet);
     image_.rgba.clear();
     tile_ = 0;
     ++sheet_;
+  }
+
+  /// Cuts off what is right of a width.
+  void narrow(int width) {
+    const auto from = static_cast<std::ptrdiff_t>(image_.width) * 4;
+    const auto to = static_cast<std::ptrdiff_t>(width) * 4;
+    const auto begin = image_.rgba.begin();
+    for (int y = 1; width < image_.width && y < image_.height; ++y) {
+      std::copy_n(begin + y * from, to, begin + y * to);
+    }
+    image_.width = width;
   }
 
   const ConfinedFolder& folder_;
