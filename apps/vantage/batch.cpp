@@ -26,6 +26,7 @@
 #include "batch/runner.h"
 #include "batch/shard_log.h"
 #include "batch/shard_plan.h"
+#include "batch_end.h"
 #include "batch_progress.h"
 #include "batch_slurm.h"
 #include "commands.h"
@@ -226,9 +227,21 @@ struct BatchCommand {
         session.say(*line);
       }
     };
-    const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
-    if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
-      settle_store(session, root, *store, list, counts);
+    auto* const store = dynamic_cast<batch::ResultsStore*>(book.get());
+    batch::RunnerCounts counts;
+    try {
+      counts = batch::run_batch(*source, *book, runner, run.stop, report);
+    } catch (const Cancelled&) {
+      if (store != nullptr) {
+        show_what_has_ended(session, root, *store, !no_overview);
+      }
+      throw;
+    }
+    if (store != nullptr) {
+      if (forget) {
+        forget_unlisted(session, root, *store, list);
+      }
+      batch::update_overview(root, *store, !no_overview, run);
     }
     summarise(session, counts, part.has_value());
     if (!part) {
@@ -239,33 +252,6 @@ struct BatchCommand {
   }
 
  private:
-  /// Forgets what is to be forgotten, and leaves an overview of what is there then.
-  void settle_store(Session& session, const batch::ConfinedFolder& root, batch::ResultsStore& store,
-                    const batch::ListedEntries& list, const batch::RunnerCounts& counts) const {
-    const std::size_t forgotten = forget ? forget_others(session, root, store, list) : 0;
-    const bool changed = forgotten > 0 || counts.done + counts.failed + counts.duplicates > 0;
-    if (changed || (!no_overview && !root.exists("index.html"))) {
-      batch::renew_overview(root, store, !no_overview, session.run());
-    }
-  }
-
-  /// \return how many models were forgotten. Nothing is where the list of inputs may not be whole.
-  static std::size_t forget_others(Session& session, const batch::ConfinedFolder& root,
-                                   batch::ResultsStore& store, const batch::ListedEntries& list) {
-    if (list.keys().empty() || !list.missing().empty()) {
-      session.say("warning: --forget removed nothing: " +
-                  (list.keys().empty() ? "no models were found"
-                                       : list.missing() + " could not be found or listed"));
-      return 0;
-    }
-    const std::size_t count = batch::forget_others(store, root, list.keys());
-    if (count > 0) {
-      session.say("forgotten: " + plural(count, "model") + (count == 1 ? " that is" : " that are") +
-                  " not among the inputs");
-    }
-    return count;
-  }
-
   void warn_of_nothing(Session& session, const batch::RunnerCounts& counts) const {
     if (counts.done + counts.failed + counts.skipped + counts.duplicates == 0) {
       session.say("warning: there was nothing to do: no models were found in " +
@@ -385,9 +371,14 @@ struct BatchCommand {
                  (record.options == runner.options_hash(entry) || record.options.empty()) &&
                  !(runner.retry_failed && record.status == "failed");
         }};
-    if (!run_on_slurm(session, source, store, root, slurm, plan)) {
-      finish_standard_output();
-      return;
+    try {
+      if (!run_on_slurm(session, source, store, root, slurm, plan)) {
+        finish_standard_output();
+        return;
+      }
+    } catch (const Cancelled&) {
+      show_what_has_ended(session, root, store, !no_overview);
+      throw;
     }
     batch::renew_overview(root, store, !no_overview, session.run());
     const batch::StatusCounts counts = store.counts();

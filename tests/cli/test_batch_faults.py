@@ -32,6 +32,11 @@ class FaultTest(ProgramTest):
         self.assertEqual(done.returncode, exit_code, done.stderr.decode(errors="replace"))
         return self.rows()
 
+    def shown(self):
+        """Keys of the models that the overview shows."""
+        text = (self.dir / "out/index.html").read_text()
+        return {row[0] for row in json.loads(text.partition('id="data">')[2].partition("</script>")[0])["rows"]}
+
     def rows(self, *flags):
         text = self.vantage("results", "export", "out", "--format", "jsonl", *flags).out
         return {row["key"]: row for row in map(json.loads, text.splitlines())}
@@ -187,7 +192,33 @@ class WholeBatch(FaultTest):
                 self.assertIn("the same command goes on from there", err.decode())
                 self.assertEqual(list((self.dir / "out/.work").glob("local/*")), [])
                 self.assertEqual(len(self.rows()), 5)
+                self.assertEqual(self.shown(), {"m0.off", "m1.off", "m2.off", "m3.off", "m5.off"})
         self.assertEqual(self.run_with(*self.names)["m4.off"]["status"], "done")
+
+    def test_what_is_not_among_the_inputs_stays_where_a_batch_that_forgets_is_stopped(self):
+        self.run_with("m5.off")
+        process = self.start(*self.names[:5], "--forget", fault="hang:m4")
+        self.wait_for_results(5)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(self.shown(), {"m0.off", "m1.off", "m2.off", "m3.off", "m5.off"})
+
+    def test_a_stop_without_an_overview_takes_the_one_that_is_out_of_date(self):
+        self.run_with("m0.off")
+        process = self.start(*self.names, "--no-overview", fault="hang:m4")
+        self.wait_for_results(5)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertFalse((self.dir / "out/index.html").exists())
+
+    def test_a_stopped_shard_leaves_no_overview(self):
+        process = self.start(*self.names, "--shard", "0/1", "--name", "{stem}-{key8}", fault="hang:m4")
+        self.wait_for_results(5)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertFalse((self.dir / "out/index.html").exists())
 
     def test_a_stop_while_an_archive_is_unpacked_is_no_failure_of_its_model(self):
         with zipfile.ZipFile(self.dir / "m.zip", "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:

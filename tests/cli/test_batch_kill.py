@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import random
+import shutil
 import signal
 import sqlite3
 import subprocess
@@ -130,6 +131,43 @@ class Kill(ProgramTest):
             self.assertIn(self.start(folder.name, "--shard", f"{shard}/2").wait(), (0, 4))
         self.vantage("results", "merge", folder.name)
         self.assertEqual(self.vantage("results", "export", folder.name, "--format", "jsonl").out, expected)
+
+
+@unittest.skipUnless(SHIM, "NOTHING WAS TESTED: VANTAGE_KILL_SHIM is not set: run this by ctest")
+class KilledBeforeTheOverview(ProgramTest):
+
+    def batch(self, out, *more, **environment):
+        return subprocess.run([PROGRAM, "batch", *more, "-o", out, "--search", "rapid", "--size", "48", "--write", "best",
+                               "--jobs", "1", "--retry", "failed", "-q"], cwd=self.dir, capture_output=True, timeout=300,
+                              check=False, env={**os.environ, **environment}).returncode
+
+    def overview(self, out):
+        return {path.name: path.read_bytes() for path in sorted((self.dir / out).iterdir())
+                if path.suffix in (".html", ".png")}
+
+    def test_the_next_run_shows_all_that_has_ended_whatever_the_moment(self):
+        for i in range(3):
+            self.write(f"{i}.off", box(1.5 + i))
+        self.assertEqual(self.batch("before", "0.off", "1.off"), 0)
+        for more in (("2.off",), ("0.off", "--forget")):
+            shutil.copytree(self.dir / "before", self.dir / "whole")
+            self.assertEqual(self.batch("whole", *more), 0)
+            whole = self.overview("whole")
+            shutil.rmtree(self.dir / "whole")
+            self.assertEqual(len(whole), 2)
+            stale = 0
+            for call in range(1, 200):
+                shutil.copytree(self.dir / "before", self.dir / "out")
+                code = self.batch("out", *more, LD_PRELOAD=SHIM, KILL_AT=str(call))
+                stale += self.overview("out") != whole
+                self.assertEqual(self.batch("out", *more), 0)
+                self.assertTrue(self.overview("out") == whole, (more, call))
+                shutil.rmtree(self.dir / "out")
+                if code == 0:
+                    break
+                self.assertIn(code, (-signal.SIGKILL, 4), call)
+            self.assertGreater(stale, 1)
+            self.assertEqual(code, 0, "it makes more calls than that")
 
 
 @unittest.skipUnless(SHIM, "NOTHING WAS TESTED: VANTAGE_KILL_SHIM is not set: run this by ctest")

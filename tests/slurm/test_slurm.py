@@ -223,6 +223,10 @@ class SlurmTest(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
+        stored = [json.loads(line)["key"] for line in self.exported(self.out).splitlines()]
+        page = (self.out / "index.html").read_text()
+        shown = json.loads(page.partition('id="data">')[2].partition("</script>")[0])["rows"]
+        self.assertEqual(sorted(row[0] for row in shown), sorted(stored))
         wait_until(lambda: not self.cluster.queue_is_busy(), "the queue is empty")
         done_before = {p.parent.name: p.stat().st_mtime_ns for p in self.out.glob("models/*/view.json")}
         self.assertGreater(len(done_before), 0)

@@ -135,13 +135,12 @@ class ContactSheets {
     }
   }
 
-  /// Writes the last sheet, and removes those of an earlier, longer batch. \return how many.
-  std::size_t finish() {
+  /// Writes the last sheet, and removes those of an earlier, longer batch.
+  void finish() {
     if (tile_ > 0) {
       write();
     }
     remove_sheets(folder_, sheet_);
-    return sheet_;
   }
 
  private:
@@ -278,14 +277,7 @@ std::vector<std::string> page_names(std::size_t pages) {
   return names;
 }
 
-}  // namespace
-
-void check_overview(const ConfinedFolder& folder) {
-  check_place(folder, page_name(0), is_page);
-  check_place(folder, sheet_name(0), is_sheet);
-}
-
-Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const RunContext& run) {
+void write_overview(const ConfinedFolder& folder, ResultsStore& store, const RunContext& run) {
   ContactSheets sheets(folder);
   const StatusCounts counts = store.counts();
   const auto total = static_cast<std::size_t>(counts.done + counts.failed + counts.duplicates);
@@ -307,17 +299,33 @@ Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const
                   is_page);
   }
   remove_pages(folder, pages);
-  return {pages, sheets.finish()};
+  sheets.finish();
+}
+
+}  // namespace
+
+void check_overview(const ConfinedFolder& folder) {
+  check_place(folder, page_name(0), is_page);
+  check_place(folder, sheet_name(0), is_sheet);
 }
 
 void renew_overview(const ConfinedFolder& folder, ResultsStore& store, bool wanted,
                     const RunContext& run) {
+  const std::int64_t changes = store.changes();  // before: others may put more meanwhile
   if (wanted) {
     write_overview(folder, store, run);
-    return;
+  } else {
+    remove_pages(folder, 0);
+    remove_sheets(folder, 0);
   }
-  remove_pages(folder, 0);
-  remove_sheets(folder, 0);
+  store.note_overview(changes);
+}
+
+void update_overview(const ConfinedFolder& folder, ResultsStore& store, bool wanted,
+                     const RunContext& run) {
+  if (!store.has_overview() || (wanted && !folder.exists(page_name(0)))) {
+    renew_overview(folder, store, wanted, run);
+  }
 }
 
 std::optional<std::string> overview_page(const std::string& folder, ResultsStore& store,

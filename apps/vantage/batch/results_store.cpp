@@ -30,10 +30,17 @@ CREATE TABLE IF NOT EXISTS timings(
   attempts INTEGER NOT NULL, finished_ms INTEGER NOT NULL) WITHOUT ROWID;
 )sql";
 
-// Older stores get it, too: older programs pass over it.
-constexpr const char* kDuplicates =
-    "CREATE INDEX IF NOT EXISTS models_duplicates ON models(content, options, version, position) "
-    "WHERE duplicate_of <> '' AND status = 'done'";
+// Older stores get these, too: older programs pass over them. The overview shows the records as they were after
+// so many changes.
+constexpr const char* kAdditions = R"sql(
+CREATE INDEX IF NOT EXISTS models_duplicates ON models(content, options, version, position)
+  WHERE duplicate_of <> '' AND status = 'done';
+CREATE TABLE IF NOT EXISTS overview(
+  id INTEGER PRIMARY KEY, changes INTEGER NOT NULL, shown INTEGER NOT NULL);
+)sql";
+
+constexpr const char* kNoteChange =
+    "INSERT INTO overview VALUES(1, 1, -1) ON CONFLICT(id) DO UPDATE SET changes = changes + 1";
 
 // Models with the same content stand for one: the first by position that was run, done before failed. The view answers
 // for all of them with its results, so that it does not matter who ran them, or in how many shards.
@@ -143,7 +150,7 @@ std::string store_path(const std::string& folder, Database::Mode mode) {
 }  // namespace
 
 struct ResultsStore::Statements {
-  Statements(Database& database, const std::string& columns, bool has_beside)
+  Statements(Database& database, Database::Mode mode, const std::string& columns, bool has_beside)
       : find(database, "SELECT " + columns + "WHERE m.key = ?1"),
         find_content(database,
                      "SELECT " + columns +
@@ -157,9 +164,14 @@ struct ResultsStore::Statements {
                 std::string(has_beside ? ",?16)" : ")")),
         put_timings(database, "INSERT OR REPLACE INTO timings VALUES(?1,?2,?3,?4,?5)"),
         savepoint(database, "SAVEPOINT one"),
-        release(database, "RELEASE one") {}
+        release(database, "RELEASE one") {
+    if (mode == Database::Mode::Create) {  // what is only read may have no such table
+      note_change.emplace(database, kNoteChange);
+    }
+  }
 
   Statement find, find_content, owner, put, put_timings, savepoint, release;
+  std::optional<Statement> note_change{};
 };
 
 ResultsStore::ResultsStore(const std::string& folder, Database::Mode mode)
@@ -184,13 +196,13 @@ ResultsStore::ResultsStore(const std::string& folder, Database::Mode mode)
                   "PRAGMA user_version = " + std::to_string(kSchema) + "; COMMIT;");
   }
   if (mode == Database::Mode::Create) {
-    database_.run(kDuplicates);
+    database_.run(kAdditions);
   }
   // Before the view of that name in the file, which may say anything.
   database_.run(std::string("CREATE TEMP ") + kView);
   const bool has_beside = !is_old || mode == Database::Mode::Create;
   columns_ = columns_of_record(has_beside);
-  statements_ = std::make_unique<Statements>(database_, columns_, has_beside);
+  statements_ = std::make_unique<Statements>(database_, mode, columns_, has_beside);
 }
 
 ResultsStore::~ResultsStore() = default;
@@ -268,6 +280,7 @@ void ResultsStore::put(const ModelRecord& record) {
   timings.bind(1, record.key).bind(2, record.timings.seconds).bind(3, record.timings.peak_bytes);
   timings.bind(4, std::int64_t{record.timings.attempts}).bind(5, record.timings.finished_ms);
   timings.run();
+  statements_->note_change.value().run();
   statements_->release.run();
 }
 
@@ -281,11 +294,26 @@ bool ResultsStore::merge(const ModelRecord& record) {
 }
 
 void ResultsStore::forget(const std::string& key) {
+  statements_->note_change.value().run();
   for (const char* const table : {"models", "timings"}) {
     Statement remove(database_, std::string("DELETE FROM ") + table + " WHERE key = ?1");
     remove.bind(1, key);
     remove.run();
   }
+}
+
+std::int64_t ResultsStore::changes() {
+  return number_of(database_, "SELECT COALESCE(MAX(changes), 0) FROM overview");
+}
+
+void ResultsStore::note_overview(std::int64_t changes) {
+  Statement note(database_,
+                 "INSERT INTO overview VALUES(1, ?1, ?1) ON CONFLICT(id) DO UPDATE SET shown = ?1");
+  note.bind(1, changes).run();
+}
+
+bool ResultsStore::has_overview() {
+  return number_of(database_, "SELECT COUNT(*) FROM overview WHERE shown = changes") > 0;
 }
 
 void ResultsStore::for_each_record(const std::function<void(const ModelRecord&)>& take) {

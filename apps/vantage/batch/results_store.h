@@ -46,6 +46,15 @@ class ResultsStore : public ResultBook {
   /// Removes the record of that key.
   void forget(const std::string& key);
 
+  /// How often records were put or removed, in all.
+  std::int64_t changes();
+
+  /// Notes that the folder's overview shows the records after so many changes.
+  void note_overview(std::int64_t changes);
+
+  /// Whether it shows them as they are, whatever ended the program since.
+  bool has_overview();
+
   /// Makes the puts until commit() one transaction.
   void begin() { database_.run("BEGIN IMMEDIATE"); }
 

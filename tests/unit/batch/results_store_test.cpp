@@ -54,6 +54,25 @@ TEST(ResultsStore, KeepsWhatFilesBesideAModelWereLike) {
   EXPECT_EQ(store.find("k")->beside, made.beside);
 }
 
+TEST(ResultsStore, KnowsWhetherTheOverviewShowsItAsItIs) {
+  const test::TemporaryFolder scratch;
+  const auto open = [&] { return ResultsStore(scratch.file(), Database::Mode::Create); };
+  EXPECT_FALSE(open().has_overview());
+  ResultsStore store = open();
+  store.note_overview(store.changes());  // as of a store that was made before this was noted
+  EXPECT_TRUE(store.has_overview());
+  store.put(record("k", 3, "c"));
+  EXPECT_FALSE(store.has_overview());
+  const std::int64_t before = store.changes();
+  store.put(record("k", 3, "c"));
+  store.note_overview(before);  // one that was begun before the last put
+  EXPECT_FALSE(store.has_overview());
+  store.note_overview(store.changes());
+  EXPECT_TRUE(open().has_overview());
+  store.forget("k");
+  EXPECT_FALSE(open().has_overview());
+}
+
 TEST(ResultsStore, AStoreOfBeforeThatIsReadAndGoesOn) {
   const test::TemporaryFolder scratch;
   { ResultsStore(scratch.file(), Database::Mode::Create).put(record("k", 3, "c")); }
