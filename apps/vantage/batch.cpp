@@ -232,9 +232,7 @@ struct BatchCommand {
     try {
       counts = batch::run_batch(*source, *book, runner, run.stop, report);
     } catch (const Cancelled&) {
-      if (store != nullptr) {
-        show_what_has_ended(session, root, *store, !no_overview);
-      }
+      show_what_has_ended(session, root, store, !no_overview);
       throw;
     }
     if (store != nullptr) {
@@ -377,7 +375,7 @@ struct BatchCommand {
         return;
       }
     } catch (const Cancelled&) {
-      show_what_has_ended(session, root, store, !no_overview);
+      show_what_has_ended(session, root, &store, !no_overview);
       throw;
     }
     batch::renew_overview(root, store, !no_overview, session.run());

@@ -26,11 +26,14 @@ void forget_unlisted(Session& session, const batch::ConfinedFolder& root,
 }
 
 void show_what_has_ended(Session& session, const batch::ConfinedFolder& root,
-                         batch::ResultsStore& store, bool wanted) {
+                         batch::ResultsStore* store, bool wanted) {
+  if (store == nullptr) {
+    return;
+  }
   RunContext run = session.run();
   run.stop = {};  // which is why it is written
   try {
-    batch::update_overview(root, store, wanted, run);
+    batch::update_overview(root, *store, wanted, run);
   } catch (const Error& error) {
     session.say(std::string("warning: ") + error.what());
   }

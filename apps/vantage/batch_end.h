@@ -15,7 +15,8 @@ void forget_unlisted(Session& session, const batch::ConfinedFolder& root,
 
 /// After a signal: leaves an overview of what has ended, or none if it is not wanted. It takes its time, since only
 /// a second signal ends it. What keeps it from being written is said; the next run makes up for it.
+/// \param store none for a shard, of which there is no overview.
 void show_what_has_ended(Session& session, const batch::ConfinedFolder& root,
-                         batch::ResultsStore& store, bool wanted);
+                         batch::ResultsStore* store, bool wanted);
 
 }  // namespace vantage::cli
