@@ -129,7 +129,9 @@ class Reading {
       } else if (only_arguments || !looks_like_flag(word)) {
         if (++arguments > most) {
           return "'" + word + "' is one argument too many for vantage " + call_of(*command_) +
-                 (may_be_output(word) ? "; did you mean -o " + word + "?" : "; see --help");
+                 (may_be_output(word) ? "; did you mean -o " + word + "?"
+                  : takes_one_model() ? "; vantage batch takes several models"
+                                      : "; see --help");
         }
       } else if (auto problem = flag_complaint(word)) {
         return problem;
@@ -148,6 +150,11 @@ class Reading {
            std::none_of(words_->begin(), words_->end(), [](const std::string& other) {
              return other.starts_with("-o") || other.starts_with("--output");
            });
+  }
+
+  /// Whether the command does for one model what batch does for many.
+  [[nodiscard]] bool takes_one_model() const {
+    return command_->get_name() == "view" || command_->get_name() == "thumb";
   }
 
   /// Reads a flag, with its value if that is a word of its own.

@@ -263,7 +263,8 @@ struct ViewCommand {
           worst_gap(gap->worst_above));
     }
     session.tell("  time        " + timing_line(seconds));
-    session.tell("  results in  " + printable(output.path()) + "/");
+    session.tell("  results in  " + printable(output.path()) +
+                 (output.path().ends_with('/') ? "" : "/"));
     for (const std::string& file : {several.tour(), trace}) {
       if (!file.empty()) {
         session.tell("              " + printable(file));

@@ -262,7 +262,7 @@ std::string read_file(const std::string& path) {
     throw IoError(path, "cannot be examined", errno);
   }
   if (S_ISDIR(status.st_mode)) {
-    throw IoError(path, "is a folder, not a file");
+    throw IoError(path, "is a folder, not a file; vantage batch takes folders of models");
   }
   if (!S_ISREG(status.st_mode)) {
     throw IoError(path, "is not a regular file; use - to read from a pipe");

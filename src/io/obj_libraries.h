@@ -45,6 +45,12 @@ class ObjLibraries {
   /// What mtllib lines say of which nothing could be read.
   [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
 
+  /// Why, after "it".
+  [[nodiscard]] std::string_view problem() const {
+    return files_ ? "cannot be read in the model's folder"
+                  : "cannot be found without the model's folder; name the model by its path";
+  }
+
   /// Where a material's picture is, relative to the model's folder; nothing if nowhere inside.
   [[nodiscard]] std::optional<std::string> place_of(const std::string& picture) const {
     return place_of_picture(picture, exists_);

@@ -102,8 +102,8 @@ void ObjMaterials::finish() {
   const std::vector<std::string>& missing = libraries_.missing();
   const std::size_t told = std::min(missing.size(), kMostTextureNotes);
   for (std::size_t i = 0; i < told; ++i) {
-    builder_.note("the material library " + in_quotes(missing[i]) +
-                  " was left out: it cannot be read in the model's folder");
+    builder_.note("the material library " + in_quotes(missing[i]) + " was left out: it " +
+                  std::string(libraries_.problem()));
   }
   if (told < missing.size()) {
     builder_.note("more material libraries were left out: " +

@@ -99,7 +99,6 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& w
   const std::vector<double> significance = shares_of_significance(shape);
   double thick = 0.0;
   double significant = 0.0;
-  double left = 0.0;
   for (std::size_t c = 0; c < shape.history.components.size(); ++c) {
     const ComponentContraction& component = shape.history.components[c];
     if (!shape.focus.empty() && !(significance[c] > 0.0)) {
@@ -110,19 +109,17 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& w
     if ((!shape.cloud && is_plate(component.shrinkage)) || has_failed) {
       thick += surface[c];
       significant += significance[c];
-      left += surface[c] * component.shrinkage;
     }
   }
   if (std::max(thick, significant) > kMinorShare) {
-    const std::string whole = shape.cloud ? " of its points" : " of its area";
+    const std::string whole = shape.cloud ? " of the points" : " of the area";
     warnings.push_back(
-        "the surface could not be contracted to a curve (" + percent(left) + whole +
-        " is left, in parts that hold " + percent(thick) + " of that" +
+        "parts with " + percent(thick) + whole +
         (shape.significance.empty() ? ""
                                     : " and " + percent(significant) + " of the significance") +
-        "), so that map, skeleton and views are hardly more than a guess: flat discs and plates "
-        "have no curve and need another --method; mend other meshes, or cut them into small even "
-        "triangles");
+        " could not be contracted to curves, so that map, skeleton and views are hardly more than "
+        "a guess: flat discs and plates have none and need another --method, such as "
+        "viewpoint-entropy; mend other meshes, or cut them into small even triangles");
   }
 }
 

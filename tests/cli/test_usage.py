@@ -100,10 +100,16 @@ class WhatWasMeant(ProgramTest):
             self.assertIn(f"'{name}' is one argument too many for vantage {command}; did you mean -o {name}?",
                           self.complaint(command, FAN, name))
         self.assertIn("; see --help", self.complaint("map", FAN, FAN))  # is there, to be read
+        self.assertIn("; vantage batch takes several models", self.complaint("view", FAN, FAN))
 
     def test_standard_input_has_a_name(self):
         self.assertIn("/dev/stdin: cannot be read: no such file, or not a plain file; - reads standard input",
                       self.vantage("score", FAN, "--directions", "/dev/stdin", exit_code=3, stdin=b"0,0,1\n").err)
+
+    def test_standard_input_has_no_folder(self):
+        mesh = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+        self.assertIn("'a.mtl' was left out: it cannot be found without the model's folder; name the model by its path",
+                      self.vantage("render", "-", "-o", "a.png", "--direction", "1,2,3", "--size", "32", stdin=mesh).err)
 
     def test_flags_that_contradict_each_other_are_refused(self):
         self.write("a.off", box(1))
