@@ -84,7 +84,8 @@ TEST(LoadModel, RefusesABufferThatIsAPipe) {
 TEST(LoadModel, RefusesFoldersDevicesAndPipes) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo(folder.file("pipe.obj").c_str(), 0600), 0);
-  EXPECT_THAT(load_error(folder.path().string()), HasSubstr("is a folder, not a file; vantage batch takes"));
+  EXPECT_THAT(load_error(folder.path().string()),
+              HasSubstr("is a folder, not a file; vantage batch takes"));
   EXPECT_THAT(load_error("/dev/zero"), HasSubstr("is not a regular file"));
   EXPECT_THAT(load_error(folder.file("pipe.obj")), HasSubstr("is not a regular file"));
 }
