@@ -220,6 +220,15 @@ std::string missing_command(const CLI::App& before, const std::vector<std::strin
   return problem;
 }
 
+/// A sentence about a flag in the place of a command; nothing for one that is allowed there.
+std::optional<std::string> flag_before_command(const CLI::App& before, const std::string& word) {
+  const std::string flag = word.substr(0, word.find('='));
+  if (Flags(before).find(flag) != nullptr) {
+    return std::nullopt;
+  }
+  return "flags follow a command, and " + flag + " follows none; see --help";
+}
+
 }  // namespace
 
 std::string plain_mismatch(const CLI::App& program, const std::string& complaint) {
@@ -270,11 +279,7 @@ std::optional<std::string> unknown_word(const CLI::App& program,
       return missing_command(*command, names);
     }
     if (looks_like_flag(words[at])) {
-      const std::string flag = words[at].substr(0, words[at].find('='));
-      return Flags(*command).find(flag) != nullptr
-                 ? std::nullopt
-                 : std::optional("flags follow a command, and " + flag +
-                                 " follows none; see --help");
+      return flag_before_command(*command, words[at]);
     }
     const CLI::App* below = nullptr;
     for (const CLI::App* sub :
