@@ -77,7 +77,7 @@ struct FrameChoice {
 Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options);
 
 /// options.up and options.front where they are set; else what the shape says, or the convention of the
-/// format or of map coordinates where that is unsure (glTF's up axis is a part of the format, and
+/// format or of land where that is unsure (glTF's up axis is a part of the format, and
 /// always holds).
 /// \throw InvalidInput if those given are along one axis.
 FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,

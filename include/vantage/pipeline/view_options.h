@@ -51,7 +51,7 @@ inline constexpr const char* kFrontWords = "x|y|z|-x|-y|-z|auto";  ///< The same
 std::string_view up_name(UpAxis axis);
 /// The axis a format implies when nothing is said: z for STL, 3MF and AMF, y otherwise.
 UpAxis default_up(ModelFormat format);
-/// The same for a model, which may say it itself, or be in coordinates of a map, where the height is up.
+/// The same for a model, which may say it itself, or be land, whose height is up (UpHabit in find_views.h).
 UpAxis default_up(const Model& model);
 /// What most files of that up axis mean by the front: upright_frame()'s.
 UpAxis default_front(UpAxis up);
