@@ -213,8 +213,8 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   if (options.front) {
     request.front = up_vector(*options.front);
   }
-  FrameChoice choice{.up_habit =
-                         up_of_land(model).value_or(LandUp{.habit = UpHabit::Format}).habit};
+  const std::optional<LandUp> land = up_of_land(model);
+  FrameChoice choice{.up_habit = land ? land->habit : UpHabit::Format};
   choice.orientation = evidence_of(shape).find(request);
   const DirectionChoice& up = choice.orientation.up;
   choice.frame = {axis_nearest(up.direction), axis_nearest(choice.orientation.front.direction)};

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "vantage/io/model.h"
-#include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/view_options.h"
 
 /// \file

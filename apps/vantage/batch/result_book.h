@@ -10,9 +10,6 @@
 
 namespace vantage::batch {
 
-/// What is wrong where the disk is full.
-inline constexpr const char* kNoRoom = "cannot hold more results; make room and run it again";
-
 /// Where a batch writes down how its models ended, and looks up what is done already.
 class ResultBook {
  public:

@@ -19,6 +19,7 @@
 #include "batch/crew.h"
 #include "batch/file_stamp.h"
 #include "batch/naming.h"
+#include "batch/no_room.h"
 #include "batch/result_folders.h"
 #include "batch/result_heirs.h"
 

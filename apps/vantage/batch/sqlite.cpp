@@ -8,7 +8,7 @@
 
 #include "vantage/core/error.h"
 
-#include "batch/result_book.h"
+#include "batch/no_room.h"
 
 namespace vantage::batch {
 

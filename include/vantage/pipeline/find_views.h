@@ -60,10 +60,6 @@ struct ReportedViewSet {
   [[nodiscard]] double way_rad() const { return way ? way->length_rad : tour.length_rad; }
 };
 
-/// Where a usual up comes from: the format, or that the model is land in coordinates of a map, or a height
-/// field.
-enum class UpHabit { Format, MapCoordinates, HeightField };
-
 /// The model's frame that a run uses, and why.
 struct FrameChoice {
   ModelFrame frame{};                  ///< As used.

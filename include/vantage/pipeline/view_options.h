@@ -51,8 +51,11 @@ inline constexpr const char* kFrontWords = "x|y|z|-x|-y|-z|auto";  ///< The same
 std::string_view up_name(UpAxis axis);
 /// The axis a format implies when nothing is said: z for STL, 3MF and AMF, y otherwise.
 UpAxis default_up(ModelFormat format);
-/// The same for a model, which may say it itself, or be land, whose height is up (UpHabit in find_views.h).
+/// The same for a model, which may say it itself, or be land, whose height is up.
 UpAxis default_up(const Model& model);
+/// Where a usual up comes from: the format or the file, or that the model is land in coordinates of a map, or a
+/// height field.
+enum class UpHabit { Format, MapCoordinates, HeightField };
 /// What most files of that up axis mean by the front: upright_frame()'s.
 UpAxis default_front(UpAxis up);
 /// The axis nearest to a direction.
