@@ -81,6 +81,10 @@ ViewObjective MeasureObjective::objective() const {
       }
       return estimates;
     };
+  }
+  const Measure& measure = measurer_->measures()[measure_];
+  // Near the maxima of a count, which are rough, many more views are scored than of areas.
+  if (has_estimates_ || (measure.is_count && measurer_->has_estimates(measure_))) {
     objective.proxy = [this](const std::vector<Vec3>& directions) {
       std::vector<double> estimates = measurer_->estimates_of(measure_, directions, quiet_);
       for (double& estimate : estimates) {
@@ -92,7 +96,6 @@ ViewObjective MeasureObjective::objective() const {
   objective.total = highest_ - floor();
   objective.survey_level = measurer_->set_level();  // of which values are known
   objective.finest_deg = kFinestDeg;
-  const Measure& measure = measurer_->measures()[measure_];
   objective.has_smooth_score = measure.needs.faces && !measure.is_count;  // of areas
   return objective;
 }

@@ -181,6 +181,9 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
     ends[0] = highest_near(ends, rules, spacing_rad, cheapest, run);
   }
   if (target.has_proxy()) {
+    if (!target.objective().surrogate) {  // the survey is of scores, unlike the proxy
+      ends.push_back({set.directions[index_of_largest(estimates)], 0.0});
+    }
     ends = ascended(best_by_score(ends, target), rules, target, run.part(kAscended, 1.0));
   }
   run.advance("search", 1.0);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -19,6 +20,10 @@ namespace {
 
 /// A view nearer than this to one of the set is that one.
 constexpr double kSame = 1e-9;
+
+/// A bound of a distance must be below the limit by this: divergences of stored areas are off by 1e-8,
+/// their roots by this at most where they are next to 0.
+constexpr double kDistanceError = 1e-3;
 
 /// Of the triangle with these unit corners, steradians; van Oosterom, Strackee 1983.
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -71,8 +76,17 @@ class SetDistances {
 /// Views that one is compared with: those of a set.
 struct Compared {
   const DirectionSet& set;
-  const IndexLists& next;  // views beside each
+  const IndexLists& next;                 // views beside each
+  std::span<const double> divergences{};  // of these, weighted by areas; empty if not known
 };
+
+/// A bound of the distance of two views from their divergence weighted by areas. As a function of the
+/// weight w of one of them divergences are concave, and 0 at 0 and 1: at ½ it is at most
+/// ½ / min(w, 1 − w) times that at w.
+double distance_at_most(double divergence, double area, double other) {
+  const double lesser = std::min(area, other);
+  return lesser > 0.0 ? std::sqrt(divergence * 0.5 * (area + other) / lesser) : 1.0;
+}
 
 /// The view of the set that looks from there, if there is one.
 std::optional<std::uint32_t> same_view(const Compared& to, const Vec3& towards) {
@@ -84,17 +98,33 @@ std::optional<std::uint32_t> same_view(const Compared& to, const Vec3& towards) 
   return {};
 }
 
-/// Marks the views of the set that are alike and joined to one of `seeds` by such.
-std::vector<std::uint8_t> alike_views(const Compared& to, std::vector<std::uint32_t> seeds,
-                                      SetDistances& distance, double limit) {
-  std::vector<std::uint8_t> is_alike(to.set.directions.size(), 0);
-  while (!seeds.empty()) {
-    const std::uint32_t view = seeds.back();
-    seeds.pop_back();
-    if (is_alike[view] == 0 && distance[view] <= limit) {
+/// Marks the views of the set that are alike and joined to one of `seeds` by such. What is near enough
+/// to one that is near needs no distance of its own: distances are a metric.
+std::vector<std::uint8_t> alike_views(const Compared& to, std::span<const SightTable> sights,
+                                      std::vector<std::uint32_t> seeds, SetDistances& distance,
+                                      double limit) {
+  const std::size_t count = to.set.directions.size();
+  std::vector<std::uint8_t> is_alike(count, 0);
+  std::vector<double> at_most(count, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < seeds.size(); ++i) {  // grows
+    const std::uint32_t view = seeds[i];
+    if (is_alike[view] != 0) {
+      continue;
+    }
+    if (!(at_most[view] <= limit - kDistanceError)) {
+      at_most[view] = distance[view];
+    }
+    if (at_most[view] <= limit) {
       is_alike[view] = 1;
-      const auto next = to.next[view];
-      seeds.insert(seeds.end(), next.begin(), next.end());
+      for (std::uint32_t k = to.next.offsets[view]; k < to.next.offsets[view + 1]; ++k) {
+        const std::uint32_t other = to.next.values[k];
+        seeds.push_back(other);
+        if (!to.divergences.empty()) {
+          const double step = distance_at_most(to.divergences[k], sights[view].projected_area,
+                                               sights[other].projected_area);
+          at_most[other] = std::min(at_most[other], at_most[view] + step);
+        }
+      }
     }
   }
   return is_alike;
@@ -109,7 +139,8 @@ double likelihood_among(const Compared& to, const MeasuredModel& model, const Si
   }
   const std::vector<std::uint32_t> around =
       own ? std::vector{*own} : views_around(to.set, to.next, sight.towards);
-  const std::vector<std::uint8_t> is_alike = alike_views(to, around, distance, limit);
+  const std::vector<std::uint8_t> is_alike =
+      alike_views(to, model.set_sights, around, distance, limit);
   const std::vector<Vec3>& directions = to.set.directions;
   const auto is_around = [&](const Triangle& t) {  // the view, which is none of the set
     return !own && std::is_permutation(t.begin(), t.end(), around.begin(), around.end());
@@ -123,6 +154,8 @@ double likelihood_among(const Compared& to, const MeasuredModel& model, const Si
         region += share_below(0.0, distance[a], distance[b], limit) *
                   solid_angle(sight.towards, directions[a], directions[b]);
       }
+    } else if (is_alike[t[0]] != 0 && is_alike[t[1]] != 0 && is_alike[t[2]] != 0) {
+      region += solid_angle(directions[t[0]], directions[t[1]], directions[t[2]]);
     } else if (is_alike[t[0]] != 0 || is_alike[t[1]] != 0 || is_alike[t[2]] != 0) {
       region += share_below(distance[t[0]], distance[t[1]], distance[t[2]], limit) *
                 solid_angle(directions[t[0]], directions[t[1]], directions[t[2]]);
@@ -149,7 +182,7 @@ double share_below(double a, double b, double c, double limit) {
 }
 
 double view_likelihood(const MeasuredModel& model, const SightTable& sight) {
-  return likelihood_among({model.set, model.next_views}, model, sight);
+  return likelihood_among({model.set, model.next_views, model.divergences}, model, sight);
 }
 
 double estimated_view_likelihood(const MeasuredModel& model, const SightTable& sight) {

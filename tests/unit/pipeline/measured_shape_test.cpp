@@ -66,6 +66,21 @@ TEST(FindViews, SayWhatShareOfTheBestScoreTheViewHasWhereLessIsBetterToo) {
   }
 }
 
+TEST(ExtremeViews, OfACountAreLookedForByEstimatesWhereTheSetIsKnownToo) {
+  const Model model = model_of(y_of_tubes(0.25, 10));
+  const std::vector<Measure> measures{find_measure("visible-triangles")};
+  const ShapeAnalysis shape = analyse_for(model, unrefined(), measures);
+  ViewMeasurer estimated(measure_subject(shape, {}), measures);
+  const MeasuredViews by_estimates = extreme_views(estimated, 0);
+  ViewMeasurer known(measure_subject(shape, {}), measures);
+  const std::vector<double> of_set = known.set_values()[0];
+  const MeasuredViews of_known = extreme_views(known, 0);
+  EXPECT_LE(of_known.evaluations - of_set.size(), 2 * by_estimates.evaluations);
+  EXPECT_GE(of_known.best.value, 0.999 * by_estimates.best.value);
+  EXPECT_LE(of_known.worst.value, 1.001 * by_estimates.worst.value);
+  EXPECT_GE(of_known.best.value, 0.999 * *std::max_element(of_set.begin(), of_set.end()));
+}
+
 TEST(ExtremeViews, AreOfAMeasureThatIsThere) {
   const Model model = model_of(box(1.0, 2.0, 3.0, 1));
   const std::vector<Measure> measures{moved_area(Better::More, 0.0)};

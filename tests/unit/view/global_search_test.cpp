@@ -178,6 +178,16 @@ TEST(GlobalSearchByProxy, ChoosesAmongItsEndsByTheScore) {
   EXPECT_GT(exact, 0U);
 }
 
+TEST(GlobalSearchByProxy, KeepsTheBestOfASurveyByScoresThatTheProxyMisses) {
+  const auto without_the_highest = [](const Vec3& d) {
+    return hills(d) - 3.0 * bump(d, kHigh, 0.4);
+  };
+  const FoundView best = search_view(
+      {.score = batch_of(hills), .total = kTotal, .proxy = batch_of(without_the_highest)},
+      Goal::Best);
+  EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
+}
+
 /// The middle of a triangle of the survey's directions that is 3.5° to 4.5° from `centre`.
 Vec3 between_directions_near(const Vec3& centre) {
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 4);

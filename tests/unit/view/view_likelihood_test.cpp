@@ -147,6 +147,26 @@ TEST(ViewLikelihood, IsEstimatedByTheCoarserSet) {
   EXPECT_EQ(survey.values, coarse);
 }
 
+TEST(ViewLikelihood, IsTheSameWithAndWithoutBoundsOfDistances) {
+  for (const TriMesh& mesh : {test::torus(1.0, 0.4, 24, 12), test::box(4.0, 3.0, 0.3, 6)}) {
+    const std::vector<FaceSides> sides{FaceSides::Front};
+    MeasureSubject subject;
+    subject.surface = &mesh;
+    subject.sides = sides;
+    subject.camera = {.sphere = enclosing_sphere(mesh.positions)};
+    ViewMeasurer measurer(subject, {find_measure("view-likelihood")}, 3);
+    MeasuredModel unbounded = measurer.model();
+    ASSERT_FALSE(unbounded.divergences.empty());
+    unbounded.divergences.clear();  // what bounds are made of
+    const std::vector<double>& values = measurer.set_values()[0];
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      SightTable sight = unbounded.set_sights[i];
+      sight.faces = unbounded.set_views[i];
+      EXPECT_EQ(values[i], view_likelihood(unbounded, sight)) << i;
+    }
+  }
+}
+
 TEST(ViewLikelihood, IsThatOfTheTurnedModelFromTheTurnedView) {
   // The turned set is another one: alike but for what lies between its views.
   const TriMesh box = test::box(3.0, 2.0, 1.0, 6);
