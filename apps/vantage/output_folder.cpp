@@ -11,6 +11,7 @@
 #include <iterator>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
@@ -160,6 +161,13 @@ void write_levels(const std::string& folder, std::vector<std::string> levels) {
     output.add("level-" + number + ".ply", std::move(levels[j]));
   }
   output.write();
+}
+
+OutputFolder::OutputFolder(std::string path, const ResultKind& kind)
+    : path_(std::move(path)), kind_(kind) {
+  while (path_.size() > 1 && path_.back() == '/') {
+    path_.pop_back();
+  }
 }
 
 void OutputFolder::check(const CommonFlags& flags) const {

@@ -30,9 +30,9 @@ inline constexpr ResultKind kLevelResults{"level-00.ply", is_level_file};
 /// one run. The marker goes first and comes last; a folder without it is known to be unfinished.
 class OutputFolder {
  public:
-  /// \param path the folder; made if it is missing. A folder that holds files but no marker of ours
-  /// is refused by check().
-  OutputFolder(std::string path, const ResultKind& kind) : path_(std::move(path)), kind_(kind) {}
+  /// \param path the folder, with or without slashes at its end; made if it is missing. A folder that
+  /// holds files but no marker of ours is refused by check().
+  OutputFolder(std::string path, const ResultKind& kind);
 
   /// Says that nobody else knows the folder before it is whole, nor keeps it if it never is: then no file has to tell
   /// that it is unfinished, which saves a wait for the disk.

@@ -319,6 +319,12 @@ class LongNames(ProgramTest):
                     self.vantage("view", "a.off", f"--output={name}", "--no-images", *FAST)
                 self.assertTrue((self.dir / name / "view.json").is_file())
 
+    def test_a_folder_may_be_named_with_slashes_at_its_end(self):
+        self.write("a.off", angle_bar())
+        for command in (("view", *FAST), ("compare", "--method", "projected-area")):
+            said = self.vantage(command[0], "a.off", "--no-images", *command[1:], "-o", f"in/{command[0]}//").stdout.decode()
+            self.assertRegex(said, f"results in +in/{command[0]}/\n")
+
     def test_a_folder_named_after_a_long_name_is_cut(self):
         for stem, folder in (("n" * 251, "n" * 247), ("ä" * 125, "ä" * 123)):
             self.write(f"{stem}.off", box(1.0))
