@@ -3,6 +3,7 @@
 
 #include "core/srgb.h"
 #include "render/colour_scale.h"
+#include "render/shading.h"
 
 namespace vantage {
 
@@ -12,6 +13,7 @@ PreparedPaint::PreparedPaint(const Paint& paint, const DrawnSurface& surface,
       colour_(linear_of_srgb(options.colour)),
       share_of_vertex_(shares_of_range(paint.vertex_values)),
       materials_(paint.appearance != nullptr ? surface.materials() : nullptr),
+      is_drawing_(options.style == Style::Technical),
       tube_colour_(linear_of_srgb(paint.overlay.colour)) {
   colour_of_vertex_.reserve(paint.vertex_colours.size());
   for (const Rgb8& colour : paint.vertex_colours) {
@@ -41,12 +43,15 @@ SurfaceMaterials::Shown PreparedPaint::shown(const RayHit& hit, double width) co
   if (materials_ != nullptr) {
     shown = materials_->at(hit.face, hit.u, hit.v, width);
   }
-  if (colour_of_vertex_.empty()) {
-    shown.colour = shown.has_material ? shown.colour : colour_;
-    return shown;
+  if (!colour_of_vertex_.empty()) {
+    const Vec3f colour = mixed(colour_of_vertex_);
+    shown.colour = shown.colour.cwiseProduct(colour.cast<double>().cwiseMax(0.0).cwiseMin(1.0));
+  } else if (!shown.has_material) {
+    shown.colour = colour_;
   }
-  const Vec3f colour = mixed(colour_of_vertex_);
-  shown.colour = shown.colour.cwiseProduct(colour.cast<double>().cwiseMax(0.0).cwiseMin(1.0));
+  if (!is_drawing_ && !shown.unlit) {
+    shown.colour = lifted_from_black(shown.colour);
+  }
   return shown;
 }
 

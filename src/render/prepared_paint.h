@@ -40,6 +40,7 @@ class PreparedPaint {
   std::vector<Vec3f> colour_of_vertex_{};  // linear; empty: colour_
   std::vector<float> share_of_vertex_{};   // of a map's range; empty: none
   const SurfaceMaterials* materials_;
+  bool is_drawing_;  // lines tell its shape
   std::optional<Tubes> tubes_{};
   Vec3 tube_colour_;
 };

@@ -295,14 +295,18 @@ test("shows a file's own texture", async () => {
 
 test("shows a file's own light", async () => {
   const [page] = await opened('lamp');
-  const green = await pixels(page, ({ data }) => {
+  const [green, red] = await pixels(page, ({ data }) => {
     let count = 0;
+    let sum = 0;
     for (let i = 0; i < data.length; i += 4) {
-      count += data[i + 1] > 150 && data[i + 1] > 2 * data[i] && data[i + 1] > 2 * data[i + 2] ? 1 : 0;
+      const isGreen = data[i + 1] > 150 && data[i + 1] > 2 * data[i] && data[i + 1] > 2 * data[i + 2];
+      count += isGreen ? 1 : 0;
+      sum += isGreen ? data[i] : 0;
     }
-    return count;
+    return [count, sum / count];
   });
   assert.ok(green > 10000, String(green));
+  assert.ok(red > 40, String(red)); // black is shown as charcoal
 });
 
 test('cameras that name the file fit it where --up any has turned the model', async () => {

@@ -36,6 +36,13 @@ function palette(table) {
   return texture;
 }
 
+/** Dark colours as pictures show them (lifted_from_black in src/render): on black nothing tells the shape. */
+function liftFromBlack(shader) {
+  const own = '#include <color_fragment>';
+  const lift = 'diffuseColor.rgb += max(0.0, 0.04 - 0.5 * max(max(diffuseColor.r, diffuseColor.g), diffuseColor.b));';
+  shader.fragmentShader = shader.fragmentShader.replace(own, `${own}\n${lift}`);
+}
+
 export class ModelView {
   /** @param onMove called with the unit direction to the eye and the up vector whenever the camera has moved.
    *  @param onLeave called when the reader has left the view that was flown to. */
@@ -136,7 +143,9 @@ export class ModelView {
       return new THREE.MeshBasicMaterial(options);
     }
     const emissive = new THREE.Color().setRGB(...(emission ?? [0, 0, 0]), THREE.LinearSRGBColorSpace);
-    return new THREE.MeshStandardMaterial({ ...options, roughness: 0.75, emissive, emissiveMap: textures[glow] ?? null });
+    const material = new THREE.MeshStandardMaterial({ ...options, roughness: 0.75, emissive, emissiveMap: textures[glow] ?? null });
+    material.onBeforeCompile = liftFromBlack;
+    return material;
   }
 
   addSkeleton({ nodes, edges }) {

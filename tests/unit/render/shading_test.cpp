@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "render/shading.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,7 +17,8 @@ std::vector<SurfacePoint> points(double albedo, double openness) {
   std::vector<SurfacePoint> result;
   for (const Vec3& normal : direction_set(ViewSphereBase::Icosahedron, 3).directions) {
     if (normal.z() > 0.02) {
-      result.push_back({normal, Vec3::UnitZ(), Vec3::Constant(albedo), openness});
+      result.push_back(
+          {normal, Vec3::UnitZ(), lifted_from_black(Vec3::Constant(albedo)), openness});
     }
   }
   return result;
@@ -47,9 +50,29 @@ TEST(Shading, OcclusionOnlyDarkens) {
   }
 }
 
-TEST(Shading, ABlackSurfaceShowsNothingButItsSheen) {
+TEST(Shading, ABlackSurfaceStaysDarkAndIsShadedAllTheSame) {
+  double darkest = 1.0;
+  double brightest = 0.0;
   for (const SurfacePoint& point : points(0.0, 1.0)) {
-    ASSERT_LT(shade_surface(point).maxCoeff<Eigen::PropagateNaN>(), 0.12);
+    const double channel = shade_surface(point).maxCoeff<Eigen::PropagateNaN>();
+    ASSERT_LT(channel, 0.12);
+    darkest = std::min(darkest, channel);
+    brightest = std::max(brightest, channel);
+  }
+  EXPECT_GT(brightest, 5.0 * darkest);
+  EXPECT_GT(darkest, 0.005);  // sRGB 16 of 255
+}
+
+TEST(Shading, DarkSurfacesDifferAndOthersAreShownAsTheyAre) {
+  const std::vector<double> albedos{0.0, 0.02, 0.05, 0.08, 0.16, 0.32};
+  for (std::size_t k = 0; k < points(0.0, 1.0).size(); ++k) {
+    std::vector<double> greens;
+    for (const double albedo : albedos) {
+      greens.push_back(shade_surface(points(albedo, 1.0)[k]).y());
+    }
+    EXPECT_TRUE(std::is_sorted(greens.begin(), greens.end(), std::less_equal<>()));
+    // In proportion to albedos, but for the sheen, which is the same on all.
+    EXPECT_NEAR(greens[5] - greens[4], 2.0 * (greens[4] - greens[3]), 1e-12);
   }
 }
 
