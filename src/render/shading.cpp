@@ -21,7 +21,8 @@ constexpr double kKeyOcclusion = 0.55;  ///< How much of the key light comes fro
 constexpr double kRim = 0.16;
 constexpr double kSheen = 0.055;
 constexpr int kSheenPower = 28;
-constexpr double kCharcoal = 0.04;  ///< Albedo that black is shown with.
+constexpr double kCharcoal = 0.03;  ///< Albedo that black is shown with.
+constexpr double kMostGain = 3.0;   ///< Dark hues are brought out so much; more shows noise.
 constexpr double kShoulder = 0.72;  ///< Brighter channels are compressed into what is left to 1.
 constexpr double kFaceOpacity = 0.56;
 constexpr double kOutlineOpacity = 0.94;
@@ -79,7 +80,10 @@ double sheen(const SurfacePoint& point, int power) {
 }  // namespace
 
 Vec3 lifted_from_black(const Vec3& albedo) {
-  return albedo + Vec3::Constant(std::max(0.0, kCharcoal - 0.5 * albedo.maxCoeff()));
+  const double own = albedo.maxCoeff();
+  const double brightest = std::max(own, kCharcoal + 0.5 * own);
+  const double gain = std::min(kMostGain, own > 0.0 ? brightest / own : kMostGain);
+  return gain * albedo + Vec3::Constant(brightest - gain * own);
 }
 
 Vec3 shade_surface(const SurfacePoint& point) {

@@ -13,8 +13,8 @@ struct SurfacePoint {
   double openness = 1.0;           ///< Unblocked part of the sky over the point, in [0, 1].
 };
 
-/// The albedo that a surface is shown with: from black to twice charcoal, 0 to 0.08, lifted to between
-/// charcoal and that, so that dark colours differ as before but light and shade can be told on them.
+/// The albedo that a surface is shown with. Below 0.06 its brightest channel is lifted, that of black to
+/// 0.03: dark colours differ as before and keep their hue, but light and shade can be told on them.
 Vec3 lifted_from_black(const Vec3& albedo);
 
 /// Linear colour of a matt surface with a soft sheen under a key light from the upper left over the

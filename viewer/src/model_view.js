@@ -39,7 +39,11 @@ function palette(table) {
 /** Dark colours as pictures show them (lifted_from_black in src/render): on black nothing tells the shape. */
 function liftFromBlack(shader) {
   const own = '#include <color_fragment>';
-  const lift = 'diffuseColor.rgb += max(0.0, 0.04 - 0.5 * max(max(diffuseColor.r, diffuseColor.g), diffuseColor.b));';
+  const lift = `
+    float own = max(max(diffuseColor.r, diffuseColor.g), diffuseColor.b);
+    float brightest = max(own, 0.03 + 0.5 * own);
+    float gain = min(3.0, brightest / max(own, 1e-6));
+    diffuseColor.rgb = gain * diffuseColor.rgb + (brightest - gain * own);`;
   shader.fragmentShader = shader.fragmentShader.replace(own, `${own}\n${lift}`);
 }
 

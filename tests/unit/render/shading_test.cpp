@@ -60,11 +60,11 @@ TEST(Shading, ABlackSurfaceStaysDarkAndIsShadedAllTheSame) {
     brightest = std::max(brightest, channel);
   }
   EXPECT_GT(brightest, 5.0 * darkest);
-  EXPECT_GT(darkest, 0.005);  // sRGB 16 of 255
+  EXPECT_GT(darkest, 0.004);  // sRGB 13 of 255
 }
 
 TEST(Shading, DarkSurfacesDifferAndOthersAreShownAsTheyAre) {
-  const std::vector<double> albedos{0.0, 0.02, 0.05, 0.08, 0.16, 0.32};
+  const std::vector<double> albedos{0.0, 0.02, 0.04, 0.06, 0.12, 0.24};
   for (std::size_t k = 0; k < points(0.0, 1.0).size(); ++k) {
     std::vector<double> greens;
     for (const double albedo : albedos) {
@@ -74,6 +74,16 @@ TEST(Shading, DarkSurfacesDifferAndOthersAreShownAsTheyAre) {
     // In proportion to albedos, but for the sheen, which is the same on all.
     EXPECT_NEAR(greens[5] - greens[4], 2.0 * (greens[4] - greens[3]), 1e-12);
   }
+}
+
+TEST(Shading, DarkColoursKeepTheirHueAndNoiseInBlackDoesNotGetOne) {
+  const Vec3 brown = lifted_from_black(Vec3(0.012, 0.006, 0.003));
+  EXPECT_GT(brown.x(), 1.5 * brown.y());
+  EXPECT_GT(brown.y(), brown.z());
+  const Vec3 noise = lifted_from_black(Vec3(0.0003, 0.0, 0.0));
+  EXPECT_LT(noise.x(), 1.05 * noise.y());
+  const Vec3 red(0.06, 0.01, 0.0);
+  EXPECT_EQ(lifted_from_black(red), red);
 }
 
 TEST(Shading, EveryDirectionStaysReadable) {
