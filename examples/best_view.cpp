@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     const Model model = load_model(argv[1]);
     const ViewOptions options;
     const ShapeAnalysis shape = analyse_shape(model, options);
-    const ViewReport views = find_views(shape, default_up(model.format), options);
+    const ViewReport views = find_views(shape, choose_frame(model, shape, options), options);
     write_file(argv[2],
                png_bytes(take_picture(shape, views.best.picture, Picture::Plain, options)));
     const Vec3& d = views.best.direction;

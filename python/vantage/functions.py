@@ -98,7 +98,7 @@ def vertex_map(model: Any, F: Any = None, *, method: Optional[str] = "kssm", pro
                threads: Optional[int] = 0, **options: Any) -> Floats:
     """One number a vertex: (n,) float64.
 
-    method: "kssm", "thickness" (distance to the skeleton, in the model's units), "mesh-saliency"
+    method: "kssm", "thickness" (mean distance to the curves of the map, in the model's units), "mesh-saliency"
     or "pmi-saliency". The rest as for kssm(). Raises InvalidInput, IoError, FormatError, TypeError.
     """
     model, F = subject_of(model, F)

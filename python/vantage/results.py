@@ -92,6 +92,10 @@ class Camera(_Record):
     height: float = 2.0
     """Orthographic: height of the picture in model units, above 0."""
 
+    def __post_init__(self) -> None:
+        for name in ("eye", "target", "up"):
+            object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=float))
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Camera):
             return NotImplemented
@@ -190,7 +194,7 @@ class View(_Record):
     visible_area_fraction: float
     """Of the surface, in [0, 1]."""
     camera: Camera
-    """From the same eye, framed tightly: pass it to render()."""
+    """From the same direction, in perspective the same eye, framed tightly: pass it to render()."""
     size: Tuple[int, int]
     """Width and height that it is framed for, pixels."""
     gain: Optional[float] = None
@@ -317,11 +321,11 @@ class KssmMap(_Record):
     of_vertex: Floats
     """(n,) significance, 0 or more; 0 for vertices without faces."""
     thickness: Floats
-    """(n,) distance of each vertex to the skeleton."""
+    """(n,) mean distance of each vertex to the two curves that the map is measured to."""
     level_factor: Floats
     """(K + 1,) weight of each level in the sum, in [0, 1]; 0 where a level is flat."""
     displacement: Optional[Floats]
-    """(K + 1, n) distance to the skeleton at each level, with levels=True."""
+    """(K + 1, n) the same at each level, with levels=True."""
     warnings: Tuple[str, ...]
 
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
@@ -20,6 +21,7 @@
 #include "contraction/second_mesh.h"
 #include "contraction/surface_contraction.h"
 #include "core/parallel.h"
+#include "mesh/extent.h"
 #include "mesh/pieces.h"
 
 namespace vantage {
@@ -229,6 +231,10 @@ ContractionHistory contract_by_area(const TriMesh& mesh, const ContractionOption
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
                             const RunContext& run) {
   check_fields(options, kContractionFields);
+  if (const std::optional<std::size_t> vertex = first_not_finite(mesh.positions)) {
+    throw InvalidInput("vertex " + std::to_string(*vertex) +
+                       " has a coordinate that is infinite or no number");
+  }
   ContractionOptions resolved = options;
   if (options.weights == ContractionWeights::Auto) {
     resolved.weights = options.method == ContractionMethod::Exact ? ContractionWeights::Vertex

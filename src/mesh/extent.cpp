@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/extent.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,13 @@ double largest_coordinate(const Box& box) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> first_not_finite(std::span<const Vec3> points) {
+  const auto at = std::find_if(points.begin(), points.end(),
+                               [](const Vec3& point) { return !point.allFinite(); });
+  return at == points.end() ? std::nullopt
+                            : std::optional(static_cast<std::size_t>(at - points.begin()));
+}
 
 double steps_across(std::span<const Vec3> points) {
   const Box box = bounding_box(points);

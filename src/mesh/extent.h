@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -20,6 +22,9 @@ inline constexpr double kSmallestExtent = 1e-60;
 /// A model must be at least this many steps across, from one double to the next at its largest coordinate:
 /// else the middles of its edges are no places of their own. [ours]
 inline constexpr double kFewestSteps = 1024.0;
+
+/// The first point with a coordinate that is infinite or no number.
+std::optional<std::size_t> first_not_finite(std::span<const Vec3> points);
 
 /// How many steps, from one double to the next at the largest coordinate, the points are across.
 double steps_across(std::span<const Vec3> points);

@@ -16,7 +16,7 @@ MeasureObjective::MeasureObjective(ViewMeasurer& measurer, std::size_t m, const 
     : measurer_(&measurer),
       measure_(m),
       quiet_(run.quiet()),
-      is_falling_(measurer.measures()[m].better == Better::Less) {
+      is_falling_(measurer.measure(m).better == Better::Less) {
   const SetSurvey survey = measurer.survey_of(m, run);
   has_estimates_ = !survey.is_exact;
   take(survey.values);
@@ -82,7 +82,7 @@ ViewObjective MeasureObjective::objective() const {
       return estimates;
     };
   }
-  const Measure& measure = measurer_->measures()[measure_];
+  const Measure& measure = measurer_->measure(measure_);
   // Near the maxima of a count, which are rough, many more views are scored than of areas.
   if (has_estimates_ || (measure.is_count && measurer_->has_estimates(measure_))) {
     objective.proxy = [this](const std::vector<Vec3>& directions) {

@@ -35,15 +35,6 @@ void require_focus_tells(const ViewOptions& options, std::span<const Measure> me
   }
 }
 
-/// \throw InvalidInput if there is no such measure.
-void require_measure(const ViewMeasurer& measurer, std::size_t m) {
-  const std::size_t count = measurer.measures().size();
-  if (m >= count) {
-    throw InvalidInput("there is no measure " + std::to_string(m) + ": the measurer has " +
-                       std::to_string(count) + ", counted from 0");
-  }
-}
-
 }  // namespace
 
 bool sums_a_map(std::string_view method) {
@@ -110,9 +101,9 @@ std::vector<double> vertex_map(const ShapeAnalysis& shape, const ViewOptions& op
 
 MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchOptions& options,
                             const RunContext& run) {
-  require_measure(measurer, m);
+  const Measure& measure = measurer.measure(m);
   if (options.strategy == SearchStrategy::Gradient) {
-    require_gradient(measurer.measures()[m]);
+    require_gradient(measure);
   }
   const RunContext quiet = run.quiet();
   const MeasureObjective by(measurer, m, quiet);
@@ -122,7 +113,6 @@ MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchO
 }
 
 MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
-  require_measure(measurer, m);
   const RunContext quiet = run.quiet();
   const MeasureObjective by(measurer, m, quiet);
   return measured(search_view(by.objective(), Goal::Best, {}, quiet), by);

@@ -13,6 +13,7 @@
 #include "vantage/pipeline/measured_shape.h"
 
 #include "core/parallel.h"
+#include "core/sizes.h"
 #include "mesh/extent.h"
 #include "pipeline/prepare_points.h"
 #include "pipeline/required_steps.h"
@@ -163,6 +164,8 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
 }
 
 std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field) {
+  require_count(field.size(), "values of the field", shape.surface.positions.size(),
+                "vertices of the surface");
   std::vector<double> values;
   values.reserve(shape.surface_vertex.size());
   for (const std::uint32_t v : shape.surface_vertex) {

@@ -6,6 +6,7 @@
 
 #include "vantage/skeleton/skeleton.h"
 
+#include "core/sizes.h"
 #include "skeleton/routing.h"
 #include "spatial/graph_distance.h"
 #include "spatial/shell.h"
@@ -146,6 +147,8 @@ void measure_sight(const TriMesh& mesh, std::span<const std::uint32_t> component
 SkeletonQuality measure_skeleton(const TriMesh& mesh,
                                  std::span<const std::uint32_t> component_of_vertex,
                                  const Skeleton& skeleton, double thin, const RunContext& run) {
+  require_count(component_of_vertex.size(), "labels of components", mesh.positions.size(),
+                "vertices");
   SkeletonQuality quality;
   const CurveGraph& graph = skeleton.graph;
   if (graph.nodes.empty()) {

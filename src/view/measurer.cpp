@@ -416,6 +416,15 @@ const std::vector<Measure>& ViewMeasurer::measures() const {
   return state_->measures;
 }
 
+const Measure& ViewMeasurer::measure(std::size_t m) const {
+  const std::size_t count = state_->measures.size();
+  if (m >= count) {
+    throw InvalidInput("there is no measure " + std::to_string(m) + ": the measurer has " +
+                       std::to_string(count) + ", counted from 0");
+  }
+  return state_->measures[m];
+}
+
 const MeasuredModel& ViewMeasurer::model() const {
   return state_->model;
 }
@@ -452,30 +461,34 @@ MeasureValues ViewMeasurer::values(std::span<const Vec3> directions, const RunCo
 
 std::vector<double> ViewMeasurer::values_of(std::size_t m, std::span<const Vec3> directions,
                                             const RunContext& run) const {
+  (void)measure(m);
   return state_->values_of(m, directions, FaceDetail::Exact, run);
 }
 
 std::vector<double> ViewMeasurer::kept_values_of(std::size_t m, std::span<const Vec3> directions,
                                                  const RunContext& run) {
+  (void)measure(m);
   return state_->kept_values_of(m, directions, run);
 }
 
 bool ViewMeasurer::has_estimates(std::size_t m) const {
+  (void)measure(m);
   const MeasureNeeds needs = state_->needs_of(m);
   return needs.faces && !needs.outline;
 }
 
 std::vector<double> ViewMeasurer::estimates_of(std::size_t m, std::span<const Vec3> directions,
                                                const RunContext& run) const {
+  (void)measure(m);
   return state_->values_of(m, directions, FaceDetail::ByCorners, run);
 }
 
 SetSurvey ViewMeasurer::survey_of(std::size_t m, const RunContext& run) {
-  const Measure& measure = state_->measures[m];
-  if (!state_->is_measured && measure.is_of_set() && measure.estimate) {
+  const Measure& own = measure(m);
+  if (!state_->is_measured && own.is_of_set() && own.estimate) {
     return {state_->estimates_of_set(m, run), false};
   }
-  if (!state_->is_measured && !measure.is_of_set() && has_estimates(m)) {
+  if (!state_->is_measured && !own.is_of_set() && has_estimates(m)) {
     return {estimates_of(m, set().directions, run.quiet()), false};
   }
   return {set_values(run)[m], true};

@@ -9,6 +9,7 @@
 #include "vantage/core/error.h"
 
 #include "core/parallel.h"
+#include "core/sizes.h"
 
 namespace vantage {
 
@@ -38,6 +39,7 @@ std::vector<Viewpoint> ScoringCamera::viewpoints(std::span<const Vec3> direction
 }
 
 double visible_sum(std::span<const double> significance, std::span<const std::uint8_t> visible) {
+  require_count(significance.size(), "values of the map", visible.size(), "vertices");
   double sum = 0.0;
   for (std::size_t v = 0; v < significance.size(); ++v) {
     sum += visible[v] != 0 ? significance[v] : 0.0;

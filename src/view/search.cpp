@@ -71,6 +71,9 @@ Candidate search_for(const SearchTarget& target, const SearchOptions& options,
 
 void check_search(const ViewObjective& objective, const SearchOptions& options) {
   check_fields(options, kSearchFields);
+  if (!objective.score) {
+    throw InvalidInput("a search needs a score");
+  }
   if (objective.starts == 0) {
     throw InvalidInput("a search starts its ascent from one direction at least");
   }

@@ -2,7 +2,9 @@
 #include "vantage/visibility/face_visibility.h"
 
 #include <cmath>
+#include <string>
 
+#include "core/sizes.h"
 #include "visibility/face_query.h"
 
 namespace vantage {
@@ -28,6 +30,10 @@ std::size_t FaceVisibility::face_count() const {
 }
 
 double FaceVisibility::face_area(std::size_t face) const {
+  if (face >= face_count()) {
+    throw InvalidInput("there is no face " + std::to_string(face) + ": the mesh has " +
+                       std::to_string(face_count()) + ", counted from 0");
+  }
   const Surface& surface = scene_->samples.surface();
   const std::uint32_t at = scene_->face_of_mesh[face];
   const double unit = surface.frame.scale;
@@ -52,6 +58,8 @@ std::vector<std::uint8_t> FaceVisibility::visible_vertices(const Viewpoint& eye,
 }
 
 std::vector<double> FaceVisibility::integrals(std::span<const double> of_vertex) const {
+  require_count(of_vertex.size(), "values of the field",
+                scene_->samples.surface().sample_of_vertex.size(), "vertices");
   std::vector<double> of_face;
   of_face.reserve(face_count());
   for (std::size_t f = 0; f < face_count(); ++f) {
@@ -63,6 +71,8 @@ std::vector<double> FaceVisibility::integrals(std::span<const double> of_vertex)
 
 double FaceVisibility::visible_integral(std::span<const double> of_vertex,
                                         std::span<const SeenFace> seen) const {
+  require_count(of_vertex.size(), "values of the field",
+                scene_->samples.surface().sample_of_vertex.size(), "vertices");
   double sum = 0.0;
   for (const SeenFace& face : seen) {
     const auto& [a, b, c] = scene_->triangles[face.face];

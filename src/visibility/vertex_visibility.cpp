@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/sizes.h"
 #include "mesh/surface_edges.h"
 #include "spatial/face_meetings.h"
 #include "visibility/sample_query.h"
@@ -30,7 +31,10 @@ Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::
   return surface;
 }
 
+/// \throw InvalidInput unless there is a flag a vertex
 std::vector<std::uint8_t> samples_of(const Surface& surface, std::span<const std::uint8_t> asked) {
+  require_count(asked.size(), "flags of the vertices asked about", surface.sample_of_vertex.size(),
+                "vertices");
   std::vector<std::uint8_t> samples(surface.samples.size(), 0);
   for (std::size_t v = 0; v < asked.size(); ++v) {
     if (asked[v] != 0 && surface.sample_of_vertex[v] != Surface::kNoSample) {

@@ -235,6 +235,9 @@ def test_colours_of_a_cloud_are_drawn_on_points_that_no_triangle_joins():
     points = np.array(ball_with_pole())
     red = np.tile(np.array([255, 0, 0], np.uint8), (len(points), 1))
     camera = vantage.Camera("perspective", np.array([0, 2.0, 12]), np.array([0, 2.0, 0]), np.array([0, 1.0, 0]), 30.0)
+    of_lists = vantage.Camera("perspective", [0, 2, 12], (0, 2, 0), [0, 1, 0], 30.0)
+    assert of_lists == camera and hash(of_lists) == hash(camera)
+    np.testing.assert_array_equal(of_lists.world_from_camera(), camera.world_from_camera())
     shown = [vantage.render(points, camera=camera, colours=colours, size=200, quality="draft")[..., 3]
              for colours in (None, red)]
     assert np.array_equal(*shown) and shown[0][:90].any()

@@ -79,7 +79,7 @@ inline constexpr auto kContractionFields = std::tuple{
 /// Vertex i of every level is vertex i of the input. Commutes with similarity transforms of the input
 /// up to rounding. Coincident vertices should be welded first.
 ///
-/// \throw InvalidInput if an option is outside its range.
+/// \throw InvalidInput if an option is outside its range, or a coordinate is not finite.
 /// \throw Cancelled
 /// \complexity One sparse Cholesky factorisation a step: of a proxy of about 10 000 vertices where a
 /// component has more than 20 000, can be decimated to less than 0.7 of them and the method is Auto. A step

@@ -38,7 +38,7 @@ struct ReportedView {
   double score_fraction = 0.0;         ///< score / total; 0 if total is 0, NaN of a measure.
   double objective = 0.0;              ///< What the search compared; the score, or see Objective.
   double visible_area_fraction = 0.0;  ///< Of the surface; each visible vertex counts its third.
-  Camera picture{};                    ///< Same eye, framed tightly.
+  Camera picture{};                    ///< Same direction, in perspective same eye, framed tightly.
   PictureSize size{};                  ///< Of the picture it is framed for.
 };
 
@@ -152,7 +152,8 @@ class MapScorer {
 ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& frame,
                       const ViewOptions& options, const RunContext& run = {});
 
-/// The same with a frame that was chosen; its notes join the warnings, last of them.
+/// The same as the program does it: how sure the choice is counts, where `frame` alone is taken to be
+/// certain. Its notes join the warnings, last of them.
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const RunContext& run = {});
 

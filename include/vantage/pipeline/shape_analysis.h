@@ -72,7 +72,7 @@ struct ShapeAnalysis {
 /// Welds and orients the model's surface; the only place that repairs, and it lists every repair.
 /// Leaves history, skeleton and map empty.
 /// The points of a model without faces are joined by their local Delaunay rings.
-/// \throw InvalidInput if the model has no extent; Cancelled
+/// \throw InvalidInput if the model has no extent, or a coordinate that is not finite; Cancelled
 ShapeAnalysis prepare_surface(const Model& model, const RunContext& run = {});
 
 /// The same with the object that options.focus names as its focus. A vertex that two objects share
@@ -110,6 +110,7 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
                               AnalysisUse use = AnalysisUse::Views);
 
 /// A per-vertex field of the surface carried to the input's vertices; isolated ones get 0.
+/// \throw InvalidInput unless it has one value per vertex of the surface.
 std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field);
 
 /// Why contraction and skeleton should not be trusted, one sentence each; empty almost always.

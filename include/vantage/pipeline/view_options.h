@@ -131,14 +131,14 @@ struct ViewOptions {
   Objective objective = Objective::People;  ///< Of the best view; see objective_of().
   ViewPrior prior = no_prior();             ///< Multiplies the score if the objective is that.
   Projection projection = Projection::Perspective;  ///< Of the scoring camera.
-  double fov_y_deg = 30.0;                          ///< Of the scoring camera, in (0, 180).
-  std::optional<double> distance_factor{};          ///< Eye distance over D/2, > 1.
+  double fov_y_deg = 30.0;                          ///< Of the scoring camera, in [1, 170].
+  std::optional<double> distance_factor{};          ///< Eye distance over D/2, in [1.001, 1e6].
   std::optional<UpAxis> up{};                       ///< Unset: choose_frame().
   std::optional<UpAxis> front{};                    ///< Unset: choose_frame().
   int width = 800;                                  ///< Of pictures, px.
   int height = 600;                                 ///< Of pictures, px.
   bool fit_size = false;        ///< Pictures of a view take its aspect, and width × height pixels.
-  double margin_percent = 4.0;  ///< Of pictures, of the shorter side, [0, 50).
+  double margin_percent = 4.0;  ///< Of pictures, of the shorter side, in [0, 45].
   bool pictures = true;         ///< Whether view.json names pictures.
   /// Unit, from the centre to the eye: taken for the best view, as a sidecar may say.
   std::optional<Vec3> best_view{};

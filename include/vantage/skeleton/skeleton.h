@@ -98,7 +98,7 @@ struct SkeletonQuality {
 
 /// Measures `skeleton.graph`. Where a component is open nothing is inside or outside: it counts in
 /// `ends` and in the distances only.
-/// \param component_of_vertex |V| labels.
+/// \param component_of_vertex |V| labels. \throw InvalidInput if there are more or fewer.
 /// \param thin walls below this, in model units, count as thin: r, the distance of samples.
 SkeletonQuality measure_skeleton(const TriMesh& mesh,
                                  std::span<const std::uint32_t> component_of_vertex,

@@ -259,9 +259,11 @@ class ViewMeasurer {
   ViewMeasurer& operator=(ViewMeasurer&&) noexcept;  ///< The same.
 
   [[nodiscard]] const std::vector<Measure>& measures() const;  ///< As given.
-  [[nodiscard]] const MeasuredModel& model() const;            ///< What is known of the model.
-  [[nodiscard]] const DirectionSet& set() const;               ///< The set of views.
-  [[nodiscard]] int set_level() const;                         ///< How often it was split.
+  /// measures()[m]. \throw InvalidInput if there is none, as all do that take an index of a measure.
+  [[nodiscard]] const Measure& measure(std::size_t m) const;
+  [[nodiscard]] const MeasuredModel& model() const;  ///< What is known of the model.
+  [[nodiscard]] const DirectionSet& set() const;     ///< The set of views.
+  [[nodiscard]] int set_level() const;               ///< How often it was split.
 
   /// Values over the set; computed once. \throw Cancelled
   const MeasureValues& set_values(const RunContext& run = {});

@@ -38,6 +38,7 @@ struct ScoringCamera {
 };
 
 /// Sum of `significance` over the vertices marked visible, added in vertex order.
+/// \throw InvalidInput if the sizes differ.
 double visible_sum(std::span<const double> significance, std::span<const std::uint8_t> visible);
 
 /// Scores view directions on one model. Holds references: mesh, map and visibility must outlive it.

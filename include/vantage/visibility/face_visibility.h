@@ -73,6 +73,7 @@ class FaceVisibility {
   [[nodiscard]] std::size_t face_count() const;  ///< Of the mesh.
 
   /// Model units squared; 0 for faces that repeat another one. \param face of the mesh.
+  /// \throw InvalidInput if there is none of that number.
   [[nodiscard]] double face_area(std::size_t face) const;
 
   /// The faces of which something is seen, by index. \throw Cancelled
@@ -89,10 +90,10 @@ class FaceVisibility {
 
   /// The integral over each face of a field that is given at the vertices and linear in each face;
   /// 0 for faces of no area and those that repeat another one.
-  /// \pre one finite value per vertex.
+  /// \pre the values are finite. \throw InvalidInput unless there is one per vertex.
   [[nodiscard]] std::vector<double> integrals(std::span<const double> of_vertex) const;
 
-  /// The integral of such a field over what is seen. \param seen as one eye sees them.
+  /// The integral of such a field over what is seen. \param seen as one eye sees them. \throw InvalidInput
   [[nodiscard]] double visible_integral(std::span<const double> of_vertex,
                                         std::span<const SeenFace> seen) const;
 

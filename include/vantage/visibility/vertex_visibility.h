@@ -37,7 +37,7 @@ class VertexVisibility {
                                                            const RunContext& run = {}) const;
 
   /// The same of some vertices, in less time. \param asked one value a vertex of the mesh, 0 for
-  /// those not asked about: the answer is 0 for them.
+  /// those not asked about: the answer is 0 for them. \throw InvalidInput if it has another size. \throw Cancelled
   [[nodiscard]] std::vector<std::uint8_t> visible_among(std::span<const std::uint8_t> asked,
                                                         const Viewpoint& eye,
                                                         const RunContext& run = {}) const;

@@ -88,6 +88,12 @@ TEST(ExtremeViews, AreOfAMeasureThatIsThere) {
   ViewMeasurer measurer(measure_subject(shape, {}), measures, 0);
   EXPECT_THROW(extreme_views(measurer, 5), InvalidInput);
   EXPECT_THROW(best_view(measurer, 1), InvalidInput);
+  const std::vector<Vec3> above{Vec3::UnitZ()};
+  EXPECT_THROW((void)measurer.values_of(1, above), InvalidInput);
+  EXPECT_THROW(measurer.kept_values_of(1, above), InvalidInput);
+  EXPECT_THROW((void)measurer.estimates_of(1, above), InvalidInput);
+  EXPECT_THROW((void)measurer.has_estimates(1), InvalidInput);
+  EXPECT_THROW((void)measurer.survey_of(1), InvalidInput);
 }
 
 TEST(ExtremeViews, AreNotOfWhatIsNoNumber) {

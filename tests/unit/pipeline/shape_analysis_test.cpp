@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -163,6 +164,24 @@ TEST(PrepareSurface, NotesSmallComponentsThatMakeTheModelsBoxMuchLarger) {
                 testing::Contains(testing::HasSubstr("1 small component makes the box"))
                     .Times(away > 1.0 ? 1 : 0));
   }
+}
+
+TEST(AnalyseShape, RefusesCoordinatesThatAreNotFinite) {
+  for (const double y :
+       {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+    TriMesh nowhere = box(1.0, 2.0, 3.0, 1);
+    nowhere.positions[2].y() = y;
+    EXPECT_THROW(analyse_shape(model_of(nowhere), unrefined()), InvalidInput);
+    EXPECT_THROW(contract(nowhere), InvalidInput);
+    nowhere.triangles.clear();
+    EXPECT_THROW(prepare_surface(model_of(nowhere)), InvalidInput);
+  }
+}
+
+TEST(AnalyseShape, CarriesFieldsOfItsSurfaceOnly) {
+  const ShapeAnalysis shape = prepare_surface(model_of(box(1.0, 2.0, 3.0, 1)));
+  const std::vector<double> field(shape.surface.positions.size() + 1, 1.0);
+  EXPECT_THROW(on_input_vertices(shape, field), InvalidInput);
 }
 
 TEST(AnalyseShape, ForViewsRefusesFacesWithoutArea) {

@@ -348,6 +348,7 @@ TEST(SearchView, RefusesOptionsOutsideTheirRange) {
   EXPECT_THROW(search_view({scoring(three_hills), 1.0}, Goal::Best, {.epsilon = -1.0}),
                InvalidInput);
   EXPECT_THROW(search_view({scoring(three_hills), -1.0}, Goal::Best), InvalidInput);
+  EXPECT_THROW(search_view({.total = 1.0}, Goal::Best), InvalidInput);
   EXPECT_THROW(
       search_view({.score = scoring(three_hills), .total = 1.0, .survey_level = 7}, Goal::Best),
       InvalidInput);

@@ -11,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
+#include "vantage/visibility/vertex_visibility.h"
 
 #include "support/many_threads.h"
 #include "support/shapes.h"
@@ -425,6 +427,15 @@ TEST(FaceVisibility, FromInsideSeesWhatAPlateLeavesOfTheWalls) {
   }
   EXPECT_NEAR(seen[0], 6.0 * 16.0 - 4.0, 1e-6);
   EXPECT_NEAR(seen[1], 1.0, 1e-12);
+}
+
+TEST(FaceVisibility, RefusesFacesAndFieldsOfAnotherMesh) {
+  const TriMesh ball = test::sphere(1);
+  const FaceVisibility faces(ball, {FaceSides::Front});
+  EXPECT_THROW((void)faces.face_area(ball.triangles.size()), InvalidInput);
+  const std::vector<double> field(ball.positions.size() - 1, 1.0);
+  EXPECT_THROW((void)faces.integrals(field), InvalidInput);
+  EXPECT_THROW((void)faces.visible_integral(field, {}), InvalidInput);
 }
 
 TEST(FaceVisibility, IsTheSameForAnyNumberOfThreads) {

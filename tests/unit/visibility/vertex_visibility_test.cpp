@@ -269,6 +269,17 @@ TEST(VertexVisibility, RefusesAnEyeThatIsNotFinite) {
       InvalidInput);
 }
 
+TEST(VertexVisibility, RefusesAnotherNumberOfFlagsThanVertices) {
+  const VertexVisibility visibility(lid(0.0, 1.0), {FaceSides::Both});
+  const Viewpoint eye = at(0.0, 0.0, 1.0);
+  const std::size_t vertices = visibility.visible_vertices(eye).size();
+  for (const std::size_t flags : {std::size_t{0}, vertices - 1, vertices + 1}) {
+    const std::vector<std::uint8_t> asked(flags, 1);
+    EXPECT_THROW((void)visibility.visible_among(asked, eye), InvalidInput);
+    EXPECT_THROW((void)visibility.visible_by_segments(asked, eye), InvalidInput);
+  }
+}
+
 TEST(VertexVisibility, StopsOnRequest) {
   const VertexVisibility visibility(test::sphere(2), {FaceSides::Front});
   std::stop_source source;
