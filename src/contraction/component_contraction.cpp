@@ -35,8 +35,8 @@ constexpr std::array<StepVariant, 9> kVariants{{{false, kAsDefined, 1.0},
 constexpr std::size_t kSafer = 1;
 /// Until a plate has lost this much its first steps round its edges off [a_t].
 constexpr double kRounded = 0.9;
-/// A step from more than this is early: what another way to take it makes of the surface would tell in
-/// all that follow [a_t; ours].
+/// Above this share of the area a step is early: if it had to be taken another way, all later levels
+/// would show it [a_t; ours].
 constexpr double kEarly = 0.25;
 /// A step that is too gentle for the surface to begin to shrink is made stronger this often at most.
 constexpr int kMostStronger = 6;

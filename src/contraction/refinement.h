@@ -21,7 +21,7 @@ struct RefinedSurface {
 /// The surface with the components that are made of large faces for their size split finer, or
 /// nothing if there is none: on those, contraction has too few vertices to move. The vertices of
 /// `mesh` come first. How a component is split does not depend on the others, unless there are too
-/// many vertices to make in all. \throw Cancelled
+/// many vertices to make in all; each of them counts as if it were split. \throw Cancelled
 std::optional<RefinedSurface> refine_coarse_components(const TriMesh& mesh, const RunContext& run);
 
 /// One component, of a size near 1, split so too, whatever its faces. \throw Cancelled

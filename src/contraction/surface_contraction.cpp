@@ -89,7 +89,7 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
   ComponentHistory history = contract_by(scaled, without_thinning(options), run.part(0.0, 0.9));
   const bool may_be_thinned =
       options.sheet_limit > options.contraction_limit && scaled.positions.size() > kProxyFrom;
-  // A proxy's share of the area is not quite the same; far below the bound neither is a sheet.
+  // The proxy's a_t differs a little from the exact one, so the exact one must be below half the bound.
   if (may_be_thinned && is_sheet(2.0 * history.shrinkage.back())) {
     const Proxy proxy = make_proxy(scaled, kMergedSize, kProxySize, run);
     const ComponentHistory coarse =
@@ -103,7 +103,7 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
   return history;
 }
 
-/// A contraction that got further than the one before, and the sentence that says of what it is.
+/// A contraction to take in place of the one before, and the sentence that says of what it is.
 struct Alternative {
   ComponentHistory history{};
   std::string remedy{};

@@ -144,7 +144,8 @@ CurveGraph merge_close_nodes(const CurveGraph& graph, double spacing, std::vecto
         merging.share_a_neighbour(a, b)) {
       continue;
     }
-    // What was turned down for a common neighbour stays so: no merge opens a triangle. So only what changed.
+    // A pair refused for a common neighbour keeps having one, so only edges that the merge changed are
+    // offered again.
     for (const std::uint32_t c : merging.merge(a, b)) {
       offer(a, c);
     }

@@ -79,7 +79,7 @@ std::vector<bool> closed_edges(const TriMesh& mesh, const EdgeTable& table) {
   return result;
 }
 
-/// Hangs every face below its lowest-index root by breadth-first search over the dual edges.
+/// Builds a breadth-first spanning forest of the dual graph; the root of a tree is its lowest face.
 void hang_faces(std::size_t face_count, const EdgeTable& table,
                 const std::vector<std::vector<std::uint32_t>>& dual, TreeCotree& trees) {
   trees.parent_face.assign(face_count, kNone);

@@ -24,7 +24,7 @@ class PlaceOrder {
  public:
   explicit PlaceOrder(std::span<const Vec3> points);
 
-  /// The length in steps of 2⁻²⁴ of the points' size.
+  /// The length in steps of 2⁻²⁴ of the distance from the points' mean to the farthest of them.
   [[nodiscard]] std::uint32_t steps(double length) const;
 
   /// Where the middle of a and b lies along own_direction(), in like steps.

@@ -213,8 +213,8 @@ CurveGraph without_merged(const CurveGraph& graph, std::vector<std::uint32_t> st
   }
   for (std::uint32_t& node : node_of_vertex) {
     if (node != Skeleton::kNone) {
-      // A junction may itself have become part of a longer end that was cut later, that one's again, and so on
-      // a thousand times: each way that is gone is halved.
+      // A junction may itself have been cut later as part of a longer end, so chains can be a thousand long:
+      // they are followed with path halving.
       while (stands_for[node] != node) {
         node = stands_for[node] = stands_for[stands_for[node]];
       }

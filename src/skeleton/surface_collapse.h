@@ -13,7 +13,7 @@
 
 namespace vantage {
 
-/// Share of each vertex in its cluster: its area, or the mean area where it has none.
+/// Share of each vertex in its cluster: its area, or the mean area where it has none; 1e-300 if none has any.
 std::vector<double> cluster_weights(const TriMesh& mesh);
 
 /// Sums of the weights of the vertices that are part of each of `count` nodes, or merged vertices.

@@ -134,7 +134,7 @@ class Selection {
       return true;
     }
     if (is_covered()) {
-      // Who asked for a number alone asked for no coverage.
+      // Coverage is the reason only if some was asked for.
       const bool is_by_count = options_.views && !options_.coverage;
       result_.stop = is_by_count ? ViewSetStop::Exhausted : ViewSetStop::Coverage;
       return true;

@@ -44,8 +44,8 @@ class Voxels {
   }
 
   /// The samples of each dense part. Voxels that hold samples are connected with their neighbours; where
-  /// that leads to no dense part, by those that hold 2, 4, 8, … So a part ends where samples get
-  /// few, and is as wide as it can be: what is left of it beside it would be in its way.
+  /// that leads to no dense part, by those that hold 2, 4, 8, … So a part reaches to where samples
+  /// get few. It is as large as it can be, because faces beside it are tested against each of its samples.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> dense_parts() {
     std::uint32_t most = 0;
     for (const Voxel& voxel : occupied_) {

@@ -61,7 +61,7 @@ enum class ViewSetStop {
 /// Result of select_views().
 struct ViewSet {
   std::vector<ChosenView> views{};  ///< In the order of choice; never empty.
-  double reachable = 0.0;           ///< Significance seen from any candidate or the first view.
+  double reachable = 0.0;           ///< Significance seen from any candidate or given view.
   ViewSetStop stop = ViewSetStop::Exhausted;  ///< Why it ended.
   int level = 4;                ///< Of the candidates; lower than asked for if memory said so.
   std::size_t candidates = 0;   ///< Directions chosen from.
