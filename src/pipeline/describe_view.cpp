@@ -53,7 +53,9 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   view.direction = direction;
   view.eye = camera.eye(direction);
   view.up = upright(direction, up_vector(up));
-  view.score = visible_sum(shape.significance, visible);
+  if (!shape.significance.empty()) {  // which measures of other things do without
+    view.score = visible_sum(shape.significance, visible);
+  }
   view.score_fraction = score_fraction(view.score, total);
   view.objective = view.score;
   view.visible_area_fraction = visible_area_fraction(
