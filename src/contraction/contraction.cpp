@@ -231,9 +231,8 @@ ContractionHistory contract_by_area(const TriMesh& mesh, const ContractionOption
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
                             const RunContext& run) {
   check_fields(options, kContractionFields);
-  if (const std::optional<std::size_t> vertex = first_not_finite(mesh.positions)) {
-    throw InvalidInput("vertex " + std::to_string(*vertex) +
-                       " has a coordinate that is infinite or no number");
+  if (const std::string problem = finite_problem(mesh.positions); !problem.empty()) {
+    throw InvalidInput(problem);
   }
   ContractionOptions resolved = options;
   if (options.weights == ContractionWeights::Auto) {

@@ -16,11 +16,12 @@ double largest_coordinate(const Box& box) {
 
 }  // namespace
 
-std::optional<std::size_t> first_not_finite(std::span<const Vec3> points) {
+std::string finite_problem(std::span<const Vec3> points) {
   const auto at = std::find_if(points.begin(), points.end(),
                                [](const Vec3& point) { return !point.allFinite(); });
-  return at == points.end() ? std::nullopt
-                            : std::optional(static_cast<std::size_t>(at - points.begin()));
+  return at == points.end() ? std::string()
+                            : "vertex " + std::to_string(at - points.begin()) +
+                                  " has a coordinate that is infinite or no number";
 }
 
 double steps_across(std::span<const Vec3> points) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -23,8 +21,8 @@ inline constexpr double kSmallestExtent = 1e-60;
 /// else the middles of its edges are no places of their own. [ours]
 inline constexpr double kFewestSteps = 1024.0;
 
-/// The first point with a coordinate that is infinite or no number.
-std::optional<std::size_t> first_not_finite(std::span<const Vec3> points);
+/// "vertex 7 has a coordinate that is infinite or no number", of the first that has; empty if none has.
+std::string finite_problem(std::span<const Vec3> points);
 
 /// How many steps, from one double to the next at the largest coordinate, the points are across.
 double steps_across(std::span<const Vec3> points);

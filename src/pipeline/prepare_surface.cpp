@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -93,10 +92,8 @@ void list_coarse_coordinates(std::span<const Vec3> points, std::vector<std::stri
 }
 
 ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
-  if (const std::optional<std::size_t> vertex = first_not_finite(model.mesh.positions)) {
-    throw InvalidInput(about_model(
-        model.name,
-        "vertex " + std::to_string(*vertex) + " has a coordinate that is infinite or no number"));
+  if (const std::string problem = finite_problem(model.mesh.positions); !problem.empty()) {
+    throw InvalidInput(about_model(model.name, problem));
   }
   if (model.mesh.triangles.empty()) {
     return prepare_points(model, run);

@@ -22,7 +22,7 @@ namespace {
 constexpr double kSame = 1e-9;
 
 /// A bound of a distance must be below the limit by this: divergences of stored areas are off by 1e-8,
-/// their roots by this at most where they are next to 0.
+/// the root of one next to 0 by 1e-4, and a bound adds up a few.
 constexpr double kDistanceError = 1e-3;
 
 /// Of the triangle with these unit corners, steradians; van Oosterom, Strackee 1983.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "vantage/core/error.h"
 #include "vantage/skeleton/skeleton.h"
 
 #include "support/shapes.h"
@@ -63,6 +65,12 @@ TEST(MeasureSkeleton, SeesAllOfABallFromItsCentreAndNothingFromOutside) {
   EXPECT_NEAR(inside.off_centre, 0.0, 1e-12);
   skeleton.graph.nodes = {Vec3(3, 0, 0)};
   EXPECT_EQ(measured(ball, skeleton).seen_fraction, 0.0);
+}
+
+TEST(MeasureSkeleton, RefusesAnotherNumberOfLabelsThanVertices) {
+  const TriMesh ball = test::sphere(1);
+  EXPECT_THROW((void)measure_skeleton(ball, std::vector<std::uint32_t>(2, 0), {}, 0.0),
+               InvalidInput);
 }
 
 TEST(MeasureSkeleton, FindsNothingOutsideAnOpenSurface) {

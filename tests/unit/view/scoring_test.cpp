@@ -2,6 +2,7 @@
 #include "vantage/view/scoring.h"
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
 #include <stop_token>
@@ -17,6 +18,13 @@
 
 namespace vantage {
 namespace {
+
+TEST(VisibleSum, RefusesAnotherNumberOfFlagsThanValues) {
+  const std::vector<double> values{1.0, 2.0};
+  EXPECT_EQ(visible_sum(values, std::vector<std::uint8_t>{0, 1}), 2.0);
+  EXPECT_THROW((void)visible_sum(values, std::vector<std::uint8_t>{1}), InvalidInput);
+  EXPECT_THROW((void)visible_sum(values, std::vector<std::uint8_t>{1, 1, 1}), InvalidInput);
+}
 
 TEST(ScoringCamera, StandsWhereTheSphereJustFillsTheFieldOfView) {
   const ScoringCamera camera{.sphere = {Vec3(1, 2, 3), 4.0}, .fov_y_deg = 60.0};
