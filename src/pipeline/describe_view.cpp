@@ -71,7 +71,7 @@ ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibi
   ReportedView view =
       describe_view(shape, visibility, scorer.camera(), direction, frame.up, options, run);
   if (options.weight == Weight::Area) {
-    view.score = scorer.score(direction);
+    view.score = scorer.score(direction, run);
     view.score_fraction = score_fraction(view.score, scorer.total());
   }
   view.objective = view.score;

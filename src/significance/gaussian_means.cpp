@@ -26,7 +26,9 @@ constexpr double kCell = kReach / 4.0;
 constexpr std::int64_t kCellsFar = 4;
 /// Where no point is near: what lists are filled up with.
 constexpr double kNowhere = 1e9;
-constexpr std::size_t kCellsPerTask = 8;
+constexpr std::size_t kPartsPerTask = 8;
+/// One far part of a model can leave all the rest of it in one cell, whose points are then shared out.
+constexpr std::size_t kPointsPerPart = 256;
 
 /// exp(−t) for t from 0 to 2, what a Gaussian within its reach needs: the eighth power of a Taylor
 /// series, of which the first term left out is below 1e-17. Without a table, which lanes would have
@@ -233,23 +235,42 @@ class Cells {
   std::vector<std::uint32_t> first_{};  // in order_, and one past the last
 };
 
+/// Some points of a cell.
+struct CellPart {
+  std::size_t cell = 0;
+  std::span<const std::uint32_t> points{};
+};
+
+std::vector<CellPart> parts_of(const Cells& cells) {
+  std::vector<CellPart> parts;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const std::span<const std::uint32_t> all = cells.points_of(cell);
+    for (std::size_t begin = 0; begin < all.size(); begin += kPointsPerPart) {
+      parts.push_back({cell, all.subspan(begin, std::min(kPointsPerPart, all.size() - begin))});
+    }
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<GaussianMeans> gaussian_means(const FieldPoints& points, const RunContext& run) {
   std::vector<GaussianMeans> means(points.position.size());
   const Cells cells(points);
-  // Blocks, so that a bar moves and a stop is seen.
-  const std::size_t block = std::max<std::size_t>(kCellsPerTask, cells.size() / 64);
-  for (std::size_t first = 0; first < cells.size(); first += block) {
-    run.advance("saliency", static_cast<double>(first) / static_cast<double>(cells.size()));
-    const std::size_t count = std::min(block, cells.size() - first);
-    parallel_for(run, count, kCellsPerTask, [&](std::size_t begin, std::size_t end) {
+  const std::vector<CellPart> parts = parts_of(cells);
+  // Blocks, so that a bar moves.
+  const std::size_t block = std::max<std::size_t>(kPartsPerTask, parts.size() / 64);
+  for (std::size_t first = 0; first < parts.size(); first += block) {
+    run.advance("saliency", static_cast<double>(first) / static_cast<double>(parts.size()));
+    const std::size_t count = std::min(block, parts.size() - first);
+    parallel_for(run, count, kPartsPerTask, [&](std::size_t begin, std::size_t end) {
       NearPoints near;
-      for (std::size_t cell = first + begin; cell < first + end; ++cell) {
+      for (const CellPart& part : std::span(parts).subspan(first + begin, end - begin)) {
         near.clear();
-        cells.for_near(cell, [&](std::uint32_t i) { near.add(points, i); });
+        cells.for_near(part.cell, [&](std::uint32_t i) { near.add(points, i); });
         near.fill_up();
-        for (const std::uint32_t i : cells.points_of(cell)) {
+        for (const std::uint32_t i : part.points) {
+          run.check();
           means_at(near, points.position[i], means[i]);
         }
       }

@@ -71,13 +71,15 @@ struct ViewMeasurer::State {
   void look_at_set(const RunContext& run);
   [[nodiscard]] bool is_of_set() const;
   [[nodiscard]] bool is_seen_by_set() const;
-  void take_seen_by_set();
-  void look_at_view_of_set(std::size_t i);
+  void take_seen_by_set(const RunContext& run);
+  void look_at_view_of_set(std::size_t i, const RunContext& run);
   [[nodiscard]] SightTable sight_of_set(std::size_t i) const;
   [[nodiscard]] std::vector<double> estimates_of_set(std::size_t m, const RunContext& run) const;
   [[nodiscard]] SightTable look(const Viewpoint& eye, const MeasureNeeds& wanted,
-                                std::size_t set_index, FaceDetail detail = FaceDetail::Exact) const;
-  void look_at_faces(const MeasureNeeds& wanted, FaceDetail detail, SightTable& sight) const;
+                                std::size_t set_index, const RunContext& run,
+                                FaceDetail detail = FaceDetail::Exact) const;
+  void look_at_faces(const MeasureNeeds& wanted, FaceDetail detail, const RunContext& run,
+                     SightTable& sight) const;
   [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
                                               FaceDetail detail, const RunContext& run) const;
   [[nodiscard]] MeasureValues values_with(std::size_t m, std::span<const Vec3> directions,
@@ -114,9 +116,8 @@ void ViewMeasurer::State::prepare() {
 
 /// Fills in what one look at the surface tells. \param sight has the eye.
 void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, FaceDetail detail,
-                                        SightTable& sight) const {
-  const RunContext alone{.max_threads = 1};
-  SeenSurface seen = faces->seen_surface(sight.eye, alone, detail);
+                                        const RunContext& run, SightTable& sight) const {
+  SeenSurface seen = faces->seen_surface(sight.eye, run, detail);
   if (wanted.vertices) {
     sight.vertices = std::move(seen.vertices);
   }
@@ -140,9 +141,11 @@ void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, FaceDetail d
   sight.deepest = seen.deepest;
 }
 
+/// With one thread, as looks are taken side by side.
 SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& wanted,
-                                     std::size_t set_index, FaceDetail detail) const {
-  const RunContext alone{.max_threads = 1};
+                                     std::size_t set_index, const RunContext& run,
+                                     FaceDetail detail) const {
+  const RunContext alone = run.alone();
   const SilhouetteDisc disc = silhouette_disc(model.given.camera.sphere, eye);
   SightTable sight;
   sight.eye = eye;
@@ -150,13 +153,12 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
   sight.disc_area =
       0.25 * std::numbers::pi * disc.diameter * disc.diameter / (faces ? faces->area_unit() : 1.0);
   if (wanted.faces) {
-    look_at_faces(wanted, detail, sight);
+    look_at_faces(wanted, detail, alone, sight);
   } else if (wanted.vertices) {
     sight.vertices =
         faces ? faces->visible_vertices(eye, alone) : vertices->visible_vertices(eye, alone);
   }
-  sight.sees_vertices =
-      std::find(sight.vertices.begin(), sight.vertices.end(), 1) != sight.vertices.end();
+  sight.sees_vertices = std::ranges::find(sight.vertices, 1) != sight.vertices.end();
   if (wanted.skeleton) {
     sight.skeleton = skeleton_sight(model, sight);
   }
@@ -207,7 +209,7 @@ std::vector<double> ViewMeasurer::State::values_of(std::size_t m, std::span<cons
   parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Viewpoint eye = model.given.camera.viewpoint(directions[i]);
-      values[i] = value(m, look(eye, own, kNotOfSet, detail), detail);
+      values[i] = value(m, look(eye, own, kNotOfSet, run, detail), detail);
     }
   });
   return values;
@@ -223,7 +225,8 @@ MeasureValues ViewMeasurer::State::values_with(std::size_t m, std::span<const Ve
   MeasureValues values(measures.size(), std::vector<double>(directions.size(), kNotMeasured));
   parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const SightTable sight = look(model.given.camera.viewpoint(directions[i]), wanted, kNotOfSet);
+      const Viewpoint eye = model.given.camera.viewpoint(directions[i]);
+      const SightTable sight = look(eye, wanted, kNotOfSet, run);
       for (std::size_t k = 0; k < measures.size(); ++k) {
         const MeasureNeeds own = needs_of(k);
         if (k == m || (is_covered(own, wanted) && !own.neighbours)) {  // comparing views takes long
@@ -263,8 +266,8 @@ std::vector<double> ViewMeasurer::State::kept_values_of(std::size_t m,
 }
 
 /// Looks at a view of the set, keeps what it sees, and measures what needs no other view.
-void ViewMeasurer::State::look_at_view_of_set(std::size_t i) {
-  SightTable sight = look(model.given.camera.viewpoint(model.set.directions[i]), needs, i);
+void ViewMeasurer::State::look_at_view_of_set(std::size_t i, const RunContext& run) {
+  SightTable sight = look(model.given.camera.viewpoint(model.set.directions[i]), needs, i, run);
   for (std::size_t m = 0; m < measures.size(); ++m) {
     of_set[m][i] = measures[m].is_of_set() ? 0.0 : value(m, sight);
   }
@@ -321,7 +324,7 @@ void ViewMeasurer::State::look_at_set(const RunContext& run) {
     parallel_for(run.quiet(), std::min(kBatch, count - start), 1,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = start + begin; i < start + end; ++i) {
-                     look_at_view_of_set(i);
+                     look_at_view_of_set(i, run);
                    }
                  });
   }
@@ -329,11 +332,11 @@ void ViewMeasurer::State::look_at_set(const RunContext& run) {
 }
 
 /// Takes what the set sees from the subject, in place of looking.
-void ViewMeasurer::State::take_seen_by_set() {
+void ViewMeasurer::State::take_seen_by_set(const RunContext& run) {
   model.set_views = model.given.seen_by_set->views;
   for (std::size_t i = 0; i < model.set_views.size(); ++i) {
     const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
-    SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
+    SightTable sight = look(eye, {.neighbours = needs.neighbours}, i, run);
     for (const FaceArea& face : model.set_views[i]) {
       sight.projected_area += face.area;
     }
@@ -348,7 +351,7 @@ void ViewMeasurer::State::survey(const RunContext& run) {
   of_set.assign(measures.size(), std::vector<double>(model.set.directions.size(), 0.0));
   const bool is_seen = is_seen_by_set();
   if (is_seen) {
-    take_seen_by_set();
+    take_seen_by_set(run);
   } else {
     look_at_set(run);
   }
@@ -446,7 +449,7 @@ MeasureValues ViewMeasurer::values(std::span<const Viewpoint> eyes, const RunCon
   MeasureValues values(state_->measures.size(), std::vector<double>(eyes.size(), 0.0));
   parallel_for(run, eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const SightTable sight = state_->look(eyes[i], state_->needs, kNotOfSet);
+      const SightTable sight = state_->look(eyes[i], state_->needs, kNotOfSet, run);
       for (std::size_t m = 0; m < values.size(); ++m) {
         values[m][i] = state_->value(m, sight);
       }

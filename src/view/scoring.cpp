@@ -98,10 +98,8 @@ double ViewScorer::score_from(const Viewpoint& eye, const RunContext& run) const
   return area > 0.0 ? sum / area : 0.0;
 }
 
-double ViewScorer::score(const Vec3& direction) const {
-  // One thread: whoever calls this in parallel has spent them on directions.
-  const RunContext alone{.max_threads = 1};
-  return score_from(camera_.viewpoint(direction), alone);
+double ViewScorer::score(const Vec3& direction, const RunContext& run) const {
+  return score_from(camera_.viewpoint(direction), run);
 }
 
 std::vector<double> ViewScorer::score_all(std::span<const Vec3> directions,

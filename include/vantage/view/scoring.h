@@ -53,11 +53,11 @@ class ViewScorer {
   ViewScorer(const FaceVisibility& faces, std::span<const double> significance,
              const ScoringCamera& camera);
 
-  /// The score seen from any viewpoint. \param run how many threads it may take.
+  /// The score seen from any viewpoint. \throw Cancelled
   [[nodiscard]] double score_from(const Viewpoint& eye, const RunContext& run = {}) const;
 
-  /// score(vp) = Σ of the significance of the visible vertices, or its integral.
-  [[nodiscard]] double score(const Vec3& direction) const;
+  /// score(vp) = Σ of the significance of the visible vertices, or its integral. \throw Cancelled
+  [[nodiscard]] double score(const Vec3& direction, const RunContext& run = {}) const;
 
   /// score() of each direction, in parallel over directions. \throw Cancelled
   [[nodiscard]] std::vector<double> score_all(std::span<const Vec3> directions,

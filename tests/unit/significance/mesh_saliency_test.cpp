@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stop_token>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
+#include "vantage/core/run_context.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
@@ -123,6 +126,31 @@ INSTANTIATE_TEST_SUITE_P(Variants, MeshSaliencyFormula,
                                          MeshSaliencyOptions{.signed_curvature = true},
                                          MeshSaliencyOptions{.area_kernel = true},
                                          MeshSaliencyOptions{.saliency_scale = 0.01}));
+
+/// A mesh and a triangle so far away that all of the mesh is within reach of each of its vertices.
+TriMesh with_a_far_triangle(const TriMesh& mesh) {
+  const TriMesh triangle{.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+                         .triangles = {{0, 1, 2}}};
+  return test::together(mesh, triangle, Vec3(1e3, 0.0, 0.0));
+}
+
+TEST(MeshSaliency, BesideAFarTriangleIsWhatDirectEvaluationOverAllPairsGives) {
+  const TriMesh mesh = with_a_far_triangle(uneven_shape());
+  EXPECT_LT(largest_difference(compute_mesh_saliency(mesh).of_vertex, direct_saliency(mesh, {})),
+            kRelative);
+}
+
+TEST(MeshSaliency, BesideAFarTriangleHearsAStopAmidItsSums) {
+  std::stop_source source;
+  const RunContext run{.report =
+                           [&](std::string_view stage, double fraction) {
+                             if (stage == "saliency" && fraction > 0.0) {
+                               source.request_stop();
+                             }
+                           },
+                       .stop = source.get_token()};
+  EXPECT_THROW(compute_mesh_saliency(with_a_far_triangle(test::sphere(4)), {}, run), Cancelled);
+}
 
 TEST(MeshSaliency, OfASphereIsZeroEverywhere) {
   const MeshSaliency saliency = compute_mesh_saliency(test::sphere(4));

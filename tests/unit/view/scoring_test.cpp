@@ -103,6 +103,8 @@ TEST_F(ScorerOfACube, StopsOnRequest) {
   EXPECT_THROW(static_cast<void>(scorer.score_all(std::vector<Vec3>(3, Vec3::UnitX()),
                                                   {.stop = source.get_token()})),
                Cancelled);
+  EXPECT_THROW(static_cast<void>(scorer.score(Vec3::UnitX(), {.stop = source.get_token()})),
+               Cancelled);
 }
 
 }  // namespace
