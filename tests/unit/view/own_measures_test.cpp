@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Measures of one's own, and several that share their looks.
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <random>
+#include <stop_token>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -117,6 +122,38 @@ TEST(Measures, KeptAreNotLookedAtAgain) {
   of_set.kept_values_of(0, other, alone);
   of_set.kept_values_of(1, other, alone);
   EXPECT_EQ(looks, 2);
+}
+
+/// Long thin triangles across each other: a look takes seconds.
+TriMesh heap_of_needles(int count) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    const double x = normal(random);
+    const double y = normal(random);
+    return Vec3(x, y, normal(random)).normalized();
+  };
+  TriMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const Vec3 end = direction();
+    mesh.positions.insert(mesh.positions.end(), {end, -end, end + 1e-3 * direction()});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+TEST(Measures, StopAmidALook) {
+  const test::Subject subject(heap_of_needles(4000));
+  const ViewMeasurer measurer(subject.given, {find_measure("projected-area")}, 1);
+  std::stop_source source;
+  const std::jthread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    source.request_stop();
+  });
+  EXPECT_THROW(static_cast<void>(
+                   measurer.values(std::vector<Vec3>{Vec3::UnitX()}, {.stop = source.get_token()})),
+               Cancelled);
 }
 
 }  // namespace
