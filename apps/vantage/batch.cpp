@@ -26,6 +26,7 @@
 #include "batch/runner.h"
 #include "batch/shard_log.h"
 #include "batch/shard_plan.h"
+#include "batch/shell_word.h"
 #include "batch_end.h"
 #include "batch_progress.h"
 #include "batch_slurm.h"
@@ -252,9 +253,9 @@ struct BatchCommand {
  private:
   void warn_of_nothing(Session& session, const batch::RunnerCounts& counts) const {
     if (counts.done + counts.failed + counts.skipped + counts.duplicates == 0) {
-      session.say("warning: there was nothing to do: no models were found in " +
-                  (manifest.empty() ? inputs.front() : manifest) +
-                  (inputs.size() > 1 ? " and the other inputs" : ""));
+      session.say("warning: there was nothing to do: no models were found in '" +
+                  printable(manifest.empty() ? inputs.front() : manifest) +
+                  (inputs.size() > 1 ? "' and the other inputs" : "'"));
     }
   }
 
@@ -389,13 +390,16 @@ struct BatchCommand {
     settle_exit_code(session, counts.failed, doubted);
   }
 
+  /// For the shell.
+  [[nodiscard]] std::string word_of_folder() const { return printable(batch::shell_word(folder)); }
+
   void settle_exit_code(Session& session, std::int64_t failed, std::int64_t doubted) const {
     if (failed > 0) {
       session.exit_code = kSomeFailed;
     } else if (strict && doubted > 0) {
       throw Error(grouped(static_cast<std::size_t>(doubted)) +
                   " of the answers should not be trusted (--strict); vantage results query " +
-                  folder + " --where 'doubts>0' lists them");
+                  word_of_folder() + " --where 'doubts>0' lists them");
     }
   }
 
@@ -453,12 +457,12 @@ struct BatchCommand {
     }
     session.tell(
         counts_text(counts) + "; results in " + printable(folder) +
-        (is_shard ? "/shards/; once all shards are done: vantage results merge " + printable(folder)
+        (is_shard ? "/shards/; once all shards are done: vantage results merge " + word_of_folder()
                   : "/"));
     if (!counts.first_doubted.empty()) {
       session.tell(doubted_text(counts) +
                    (is_shard ? ""
-                             : "; vantage results query " + printable(folder) +
+                             : "; vantage results query " + word_of_folder() +
                                    " --where 'doubts>0' --columns key,doubt says why"));
     }
     if (counts.renamed > 0) {

@@ -16,6 +16,7 @@
 #include "batch/shard_log.h"
 #include "batch/shard_merge.h"
 #include "batch/shard_plan.h"
+#include "batch/shell_word.h"
 #include "settings.h"
 #include "terminal.h"
 #include "value_checks.h"
@@ -78,7 +79,8 @@ class SlurmRun {
       session_.say("job " + job + ": " + plural(static_cast<std::size_t>(models_), "model") +
                    " in " + plural(shards.size(), "shard"));
       if (flags_.detach) {
-        session_.say("when it has ended: vantage results merge " + flags_.request.folder);
+        session_.say("when it has ended: vantage results merge " +
+                     batch::shell_word(flags_.request.folder));
         return false;
       }
       await(job);

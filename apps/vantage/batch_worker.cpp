@@ -219,7 +219,9 @@ struct BatchWorkerCommand {
     };
     try {
       const RunContext reading_run = session.run();
-      ImportedOnce imported(path, model_importer(session.flags.limits), reading_run);
+      RunLimits limits = session.flags.limits;
+      limits.seconds = order.at("seconds").get<double>();
+      ImportedOnce imported(path, model_importer(limits), reading_run);
       const auto pictures = [&](const ImportFormat& format) { return imported.pictures(format); };
       const batch::FileWatch watch(path);
       content = batch::content_of(path, pictures);

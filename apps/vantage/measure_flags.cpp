@@ -18,6 +18,9 @@ std::vector<Measure> parse_measures(const std::string& text, const std::string& 
   std::vector<Measure> measures;
   std::istringstream names(text);
   for (std::string name; std::getline(names, name, ',');) {
+    if (name == "all") {
+      throw CLI::ValidationError(flag, "all stands alone: it is every method");
+    }
     try {
       const Measure& found = find_measure(name);
       for (const Measure& earlier : measures) {

@@ -186,11 +186,13 @@ struct QueryCommand {
     std::vector<std::string> selected = wanted;
     selected.push_back(order.column.empty() ? wanted.front() : order.column);
     const int rank = static_cast<int>(wanted.size());
+    const RunContext context = session.run();
     std::vector<FoundRow> all;
     for (const std::string& folder : folders) {
       const auto store = open_store(session, folder);
       batch::Statement rows = select_rows(*store, selected, conditions, order);
       for (std::size_t i = 0; (limit == 0 || i < limit) && rows.step(); ++i) {
+        context.check();
         all.push_back({RankedRow(rows, rank), object_of(rows, wanted), cells_of(rows, rank)});
       }
     }
@@ -244,13 +246,14 @@ struct DiffCommand {
     const auto a = open_store(session, before);
     const auto b = open_store(session, after);
     Json differences = Json::array();
-    const DiffCounts counts = diff_results(*a, *b, tolerance, [&](const Difference& difference) {
-      if (session.flags.json) {
-        differences.push_back(to_json(difference));
-      } else {
-        session.tell(difference_line(difference));
-      }
-    });
+    const DiffCounts counts =
+        diff_results(*a, *b, tolerance, session.run(), [&](const Difference& difference) {
+          if (session.flags.json) {
+            differences.push_back(to_json(difference));
+          } else {
+            session.tell(difference_line(difference));
+          }
+        });
     if (session.flags.json) {
       const Json json = {{"equal", counts.equal},
                          {"changed", counts.changed},
@@ -262,7 +265,7 @@ struct DiffCommand {
     session.tell(plural(counts.equal, "model") + " alike, " + grouped(counts.changed) +
                  " changed, " + grouped(counts.removed) + " only in A, " + grouped(counts.added) +
                  " only in B");
-    if (counts.equal + counts.changed == 0 && share_content(*a, *b)) {
+    if (counts.equal + counts.changed == 0 && share_content(*a, *b, session.run())) {
       session.say(
           "note: no key is in both, though contents are: keys are paths as they were given; "
           "run both batches from one folder, or by manifests that have keys");

@@ -92,13 +92,14 @@ Difference compared(const batch::Statement& a, const batch::Statement& b, double
 }  // namespace
 
 DiffCounts diff_results(batch::ResultsStore& a, batch::ResultsStore& b, double tolerance,
-                        const std::function<void(const Difference&)>& take) {
+                        const RunContext& run, const std::function<void(const Difference&)>& take) {
   batch::Statement left = select_rows(a, compared_columns(), {}, {});
   batch::Statement right = select_rows(b, compared_columns(), {}, {});
   DiffCounts counts;
   bool in_a = left.step();
   bool in_b = right.step();
   while (in_a || in_b) {
+    run.check();
     const int order = !in_a ? 1 : !in_b ? -1 : left.text(0).compare(right.text(0));
     if (order < 0) {
       ++counts.removed;
@@ -119,14 +120,16 @@ DiffCounts diff_results(batch::ResultsStore& a, batch::ResultsStore& b, double t
   return counts;
 }
 
-bool share_content(batch::ResultsStore& a, batch::ResultsStore& b) {
+bool share_content(batch::ResultsStore& a, batch::ResultsStore& b, const RunContext& run) {
   std::unordered_set<std::string> contents;
   batch::Statement left = a.select("content", "content <> ''", "");
   while (left.step()) {
+    run.check();
     contents.insert(left.text(0));
   }
   batch::Statement right = b.select("content", "content <> ''", "");
   while (right.step()) {
+    run.check();
     if (contents.contains(right.text(0))) {
       return true;
     }

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "vantage/core/run_context.h"
+
 #include "batch/results_store.h"
 
 namespace vantage::cli {
@@ -34,12 +36,12 @@ struct DiffCounts {
 
 /// Walks through two stores in the order of keys. What is compared: status, error, content,
 /// counts of the surface, and the scores and the best view's camera, whose numbers may differ by `tolerance`
-/// of the larger.
+/// of the larger. \throw IoError, Cancelled
 DiffCounts diff_results(batch::ResultsStore& a, batch::ResultsStore& b, double tolerance,
-                        const std::function<void(const Difference&)>& take);
+                        const RunContext& run, const std::function<void(const Difference&)>& take);
 
-/// Whether a model of one store has the content of one of the other.
-bool share_content(batch::ResultsStore& a, batch::ResultsStore& b);
+/// Whether a model of one store has the content of one of the other. \throw IoError, Cancelled
+bool share_content(batch::ResultsStore& a, batch::ResultsStore& b, const RunContext& run);
 
 std::string difference_line(const Difference& difference);     ///< For people.
 nlohmann::ordered_json to_json(const Difference& difference);  ///< For programs.

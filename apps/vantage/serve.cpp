@@ -32,8 +32,8 @@ struct ServeCommand {
   }
 
   void run(Session& session) const {
-    auto site = session.read([&] { return batch::FolderSite(folder); });
     const RunContext run = session.run();
+    auto site = session.read([&] { return batch::FolderSite(folder, run.stop); });
     const batch::SiteServer server(std::move(site), port);
     session.end_progress();
     const std::string& address = server.address();

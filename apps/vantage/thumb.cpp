@@ -44,6 +44,7 @@ ViewOptions sized(const std::string& text) {
 struct ThumbCommand {
   std::string model{};
   std::string file{};
+  std::string named_by{};  // FILE or --output
   ViewOptions size = sized(kUsualSize);
   OptionFlags frame{};
   LookFlags look{};
@@ -51,12 +52,15 @@ struct ThumbCommand {
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
-    const auto named_by = [this](const char* option) {
-      return [this, option](const std::string& path) { file = checked_picture_name(path, option); };
+    const auto takes_name = [this](const char* option) {
+      return [this, option](const std::string& path) {
+        file = checked_picture_name(path, option);
+        named_by = option;
+      };
     };
     CLI::Option* place = app.add_option_function<std::string>(
-        "FILE", named_by("FILE"), "picture to write, unless named by -o");
-    app.add_option_function<std::string>("-o,--output", named_by("--output"),
+        "FILE", takes_name("FILE"), "picture to write, unless named by -o");
+    app.add_option_function<std::string>("-o,--output", takes_name("--output"),
                                          "the same; WebP if it ends in .webp, else PNG (names of "
                                          "other formats are refused), - for "
                                          "standard output")
@@ -76,9 +80,9 @@ struct ThumbCommand {
 
   void run(Session& session) {
     if (file.empty()) {
-      throw CLI::RequiredError("FILE");
+      throw CLI::RequiredError("FILE or --output");
     }
-    session.leave_output_to(file, "FILE");
+    session.leave_output_to(file, named_by);
     check_output(file, OutputKind::Picture, session.flags);
     AllOptions given;
     frame.apply(given);

@@ -191,7 +191,7 @@ class Inputs(HostileTest):
     def test_a_folder_without_models_is_told(self):
         (self.dir / "in").mkdir()
         self.write("in/notes.txt", "none")
-        self.assertIn("no models were found in in", self.vantage("batch", "in", "-o", "out").err)
+        self.assertIn("no models were found in 'in'", self.vantage("batch", "in", "-o", "out").err)
         self.write("in/a.off", box(1))
         for _ in range(2):
             self.assertNotIn("no models", self.vantage("batch", "in", "-o", "out", *FAST).err)

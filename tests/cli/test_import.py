@@ -311,6 +311,13 @@ class Broken(ProgramTest):
         self.assertIn("--timeout", done.stderr)
         self.assertEqual(len(done.stderr.splitlines()), 1)
 
+    def test_the_time_that_a_batch_allows_holds_for_the_reader(self):
+        copy = self.stand_in("kill -XCPU $$")
+        shutil.copy(DATA / "lamp.fbx", self.dir)
+        done = subprocess.run([copy, "batch", "lamp.fbx", "-o", "out", "--timeout", "777"], cwd=self.dir, capture_output=True,
+                              check=False, text=True, timeout=60)
+        self.assertIn("takes more than 777 s", done.stderr)
+
     def test_a_reader_that_stays_after_its_output_is_ended(self):
         copy = self.stand_in("exec >&-; exec sleep 100")
         done = subprocess.run([copy, "info", DATA / "lamp.fbx"], capture_output=True, check=False, text=True, timeout=60)

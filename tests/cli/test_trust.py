@@ -119,6 +119,7 @@ class Doubts(ProgramTest):
         command = ("batch", "sound.ply", "needle.off", "again.off", "-o", "out", *FAST)
         self.assertIn(", 1 not to be trusted;", self.vantage(*command).out)
         self.assertIn("not to be trusted: needle.off; vantage results query out --where 'doubts>0'", self.vantage(*command).out)
+        self.assertIn("; vantage results query 'two words' --where", self.vantage("batch", "needle.off", "-o", "two words", *FAST).out)
         texts = self.vantage("results", "query", "out", "--where", "doubt~shows nothing", "--columns", "key,doubt").out
         self.assertRegex(texts, r"^key +doubt\nagain.off +\S.*\nneedle.off +\S.*\n$")
         for _ in range(2):  # also where nothing is left to do

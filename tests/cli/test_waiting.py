@@ -1,7 +1,9 @@
 """Nothing that a command waits for keeps it from being ended."""
 
+import contextlib
 import os
 import signal
+import sqlite3
 import subprocess
 import time
 import unittest
@@ -74,6 +76,15 @@ class Waiting(ProgramTest):
         self.assert_ends("info", "-")
         self.assert_ends("score", "a.off", "--directions", "-")
         self.assert_ends("render", "a.off", "-o", "r.png", "--camera", "-")
+
+    def test_a_table_of_many_models(self):
+        self.vantage("batch", "a.off", "-o", "many", "--write", "camera", "--no-overview")
+        with contextlib.closing(sqlite3.connect(self.dir / "many/results.sqlite")) as store, store:
+            columns = [row[1] for row in store.execute("PRAGMA table_info(models)") if row[1] != "key"]
+            store.execute("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 100000) INSERT INTO models "
+                          f"(key, {', '.join(columns)}) SELECT 'copy' || i, {', '.join(columns)} FROM models, n")
+        self.assert_ends("results", "query", "many", "--where", "vertices>0")
+        self.assert_ends("results", "diff", "many", "many")
 
     def test_a_pipe_in_place_of_a_result_of_ours(self):
         os.mkdir(self.dir / "out")

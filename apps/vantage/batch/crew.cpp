@@ -73,7 +73,8 @@ void Crew::start(Job& job, bool last) {
                       {"up", job.entry.up},
                       {"front", job.entry.front},
                       {"staging", key_of_path(root_.path_of(seat->staging))},
-                      {"threads", std::max(options_.threads, shared)}};
+                      {"threads", std::max(options_.threads, shared)},
+                      {"seconds", options_.timeout_s}};
   seat->process->send(json_text(order));
 }
 

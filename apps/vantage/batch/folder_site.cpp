@@ -119,7 +119,7 @@ std::vector<fs::path> folders_in(const fs::path& root) {
 
 }  // namespace
 
-FolderSite::FolderSite(const std::string& folder) {
+FolderSite::FolderSite(const std::string& folder, std::stop_token stop) : stop_(std::move(stop)) {
   std::error_code error;
   root_ = fs::canonical(folder, error);
   if (error || !fs::is_directory(root_, error)) {
@@ -141,8 +141,11 @@ std::string FolderSite::results_index() const {
   std::string rows;
   StatusCounts counts;
   for (const fs::path& folder : folders_in(root_)) {
+    if (stop_.stop_requested() || counts.done == static_cast<std::int64_t>(kMostResults)) {
+      break;
+    }
     const std::optional<Json> result = read_result(folder);
-    if (!result || counts.done == static_cast<std::int64_t>(kMostResults)) {
+    if (!result) {
       continue;
     }
     ++counts.done;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -26,8 +27,9 @@ struct SitePage {
 /// can be watched), or any folder with results of `view` in it, four levels deep.
 class FolderSite {
  public:
+  /// \param stop once it is requested, the page that is being made ends where it is.
   /// \throw IoError if it is no folder, or there are no results in it.
-  explicit FolderSite(const std::string& folder);
+  explicit FolderSite(const std::string& folder, std::stop_token stop = {});
 
   /// What stands at the decoded path of a request ("/", "/models/x/best.png"); nothing for what does
   /// not exist, is hidden, lies outside the folder or behind a link, or is of a kind that results
@@ -38,7 +40,8 @@ class FolderSite {
   [[nodiscard]] std::optional<SitePage> index(std::size_t page) const;
   [[nodiscard]] std::string results_index() const;
 
-  std::filesystem::path root_;
+  std::stop_token stop_;
+  std::filesystem::path root_{};
   bool is_batch_ = false;
 };
 

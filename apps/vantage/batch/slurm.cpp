@@ -9,6 +9,7 @@
 #include "vantage/core/error.h"
 
 #include "batch/program_call.h"
+#include "batch/shell_word.h"
 
 namespace vantage::batch {
 namespace {
@@ -20,15 +21,6 @@ constexpr int kWarningSeconds = 30;
 constexpr int kTries = 30;
 constexpr std::chrono::milliseconds kBetweenTries(2000);
 constexpr std::chrono::milliseconds kStopLook(100);  // between two looks whether the run is to stop
-
-/// A word for the shell.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) {
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  }
-  return text + "'";
-}
 
 /// A path in one of sbatch's patterns, where a percent sign begins a field.
 std::string in_pattern(const std::string& path) {
@@ -64,11 +56,11 @@ std::string index_ranges(const std::vector<std::uint32_t>& indices) {
 std::string slurm_script(const SlurmRequest& request) {
   std::string command;
   for (const std::string& word : request.command) {
-    command += quoted(word) + " ";
+    command += shell_word(word) + " ";
   }
   command += "--shard \"$SLURM_ARRAY_TASK_ID\"/" + std::to_string(request.shards);
   // Slurm signals the script alone; it hands SIGTERM on and reports what the shard made of it.
-  const std::string records = quoted(request.folder + "/shards/") +
+  const std::string records = shell_word(request.folder + "/shards/") +
                               "\"$(printf 'shard-%05d-of-%05d.jsonl' \"$SLURM_ARRAY_TASK_ID\" " +
                               std::to_string(request.shards) + ")\"*";
   return "#!/bin/bash\n"
