@@ -145,7 +145,7 @@ struct BatchCommand {
     app.add_option("--memory", memory_gb,
                    "memory for each worker: GB, or with a unit; default: its share of 80 %")
         ->transform(size_in(1e9))
-        ->check(within(0.3, 1e6))  // less does not hold the program itself
+        ->check(within(0.3, 1e6))  // less does not hold a view of a small model
         ->group(group);
     app.add_option("--output-limit", output_limit_mb,
                    "largest file that may be written: MB, or with a unit")

@@ -17,7 +17,7 @@
 namespace vantage::cli {
 namespace {
 
-constexpr double kLeastMemory = 64e6;  // bytes; less does not hold the program itself [ours]
+constexpr double kLeastMemory = 64e6;  // bytes; with less hardly a command starts [ours]
 constexpr double kMostMemory = 1e18;
 constexpr double kLeastSeconds = 0.001;
 constexpr double kMostSeconds = 1e7;

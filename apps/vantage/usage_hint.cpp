@@ -223,8 +223,13 @@ std::string missing_command(const CLI::App& before, const std::vector<std::strin
 /// A sentence about a flag in the place of a command; nothing for one that is allowed there.
 std::optional<std::string> flag_before_command(const CLI::App& before, const std::string& word) {
   const std::string flag = word.substr(0, word.find('='));
-  if (Flags(before).find(flag) != nullptr) {
+  const Flags own(before);
+  if (own.find(flag) != nullptr) {
     return std::nullopt;
+  }
+  const std::string nearest = flag.starts_with("--") ? nearest_word(flag, own.names()) : "";
+  if (!nearest.empty()) {
+    return "vantage knows no flag " + flag + meant(nearest);
   }
   return "flags follow a command, and " + flag + " follows none; see --help";
 }

@@ -32,6 +32,7 @@ class Usage(ProgramTest):
     def test_a_flag_before_the_command(self):
         self.check_usage("--up", "z", "view", "a.off")
         self.assertIn("--up follows none", self.vantage("--up=z", "view", "a.off", exit_code=2).err)
+        self.assertIn("no flag --versio; did you mean --version?", self.vantage("--versio", exit_code=2).err)
 
     def test_unknown_command(self):
         self.check_usage("veiw", "a.off")
