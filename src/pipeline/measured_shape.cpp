@@ -22,6 +22,9 @@
 namespace vantage {
 namespace {
 
+// Share of a search by a measure that the look at the set of views takes, where it was not looked at.
+constexpr double kSurveyShare = 0.3;
+
 MeasuredView measured(const FoundView& found, const MeasureObjective& by) {
   return {found.direction, by.value(found.score)};
 }
@@ -105,17 +108,16 @@ MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchO
   if (options.strategy == SearchStrategy::Gradient) {
     require_gradient(measure);
   }
-  const RunContext quiet = run.quiet();
-  const MeasureObjective by(measurer, m, quiet);
-  const FoundViews found = search_best_and_worst(by.objective(), options, quiet);
+  const MeasureObjective by(measurer, m, run.part(0.0, kSurveyShare));
+  const FoundViews found =
+      search_best_and_worst(by.objective(), options, run.part(kSurveyShare, 1.0));
   return {measured(found.best, by), measured(found.worst, by),
           found.best.evaluations + found.worst.evaluations};
 }
 
 MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
-  const RunContext quiet = run.quiet();
-  const MeasureObjective by(measurer, m, quiet);
-  return measured(search_view(by.objective(), Goal::Best, {}, quiet), by);
+  const MeasureObjective by(measurer, m, run.part(0.0, kSurveyShare));
+  return measured(search_view(by.objective(), Goal::Best, {}, run.part(kSurveyShare, 1.0)), by);
 }
 
 void require_gradient(const Measure& measure) {
@@ -143,7 +145,7 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
                         kMeasureSetLevel, run.part(0.0, 0.6));
   const MeasureObjective by(measurer, 0, run.part(0.0, 0.6));
   ViewObjective objective = by.objective();
-  const Preference preference(shape, choice, options, objective.total);
+  const Preference preference(shape, choice, options, objective.total.value());
   if (!preference.is_score()) {
     objective.preference = std::cref(preference);
     objective.finest_preferred_deg = std::max(objective.finest_deg, preference.finest_deg());

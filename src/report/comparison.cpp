@@ -67,11 +67,16 @@ Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& option
   comparison.survey_seconds = seconds_since(start);
   const RunContext searching = run.part(0.6, 1.0);
   for (std::size_t m = 0; m < measurer.measures().size(); ++m) {
-    searching.advance("views",
-                      static_cast<double>(m) / static_cast<double>(measurer.measures().size()));
+    const auto share_before = [&](std::size_t done) {
+      return static_cast<double>(done) / static_cast<double>(measurer.measures().size());
+    };
+    searching.advance("views", share_before(m));
     const auto begun = Clock::now();
     comparison.methods.push_back(
-        {measurer.measures()[m], extreme_views(measurer, m, options.search, searching), values[m]});
+        {measurer.measures()[m],
+         extreme_views(measurer, m, options.search,
+                       searching.part(share_before(m), share_before(m + 1))),
+         values[m]});
     comparison.methods.back().seconds = seconds_since(begun);
   }
   searching.advance("views", 1.0);

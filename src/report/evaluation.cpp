@@ -108,7 +108,7 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
       rows.push_back(agreement(std::string(kDefaultView), record,
                                default_view(model, shape, options, run.part(0.7, 0.8))));
     }
-    const MeasuredView best = best_view(measurer, m, run.part(0.8, 1.0));
+    const MeasuredView best = best_view(measurer, m, quiet);
     rows.push_back(agreement(measures[m].name, record, best.direction));
     rows.back().percentile = human_percentile(measures[m], values[m], of_people[m]);
     rows.push_back(agreement(measures[m].name + std::string(kUnderPrior), record,

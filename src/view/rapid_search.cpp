@@ -25,6 +25,18 @@ double width_of(const Vec3& centre, const std::vector<Vec3>& ring) {
   return width;
 }
 
+/// What epsilon as a fraction is one of.
+double whole_of(const SearchTarget& target, const std::vector<double>& start) {
+  if (target.objective().total && !target.is_preference()) {
+    return *target.objective().total;
+  }
+  double largest = 0.0;
+  for (const double value : start) {
+    largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : largest;
+  }
+  return largest;
+}
+
 }  // namespace
 
 Candidate search_rapidly(const SearchTarget& target, const DirectionSet& set,
@@ -33,7 +45,7 @@ Candidate search_rapidly(const SearchTarget& target, const DirectionSet& set,
   const std::size_t first = index_of_largest(start);
   Candidate v0{set.directions[first], start[first]};
   const double epsilon =
-      options.epsilon_is_fraction ? options.epsilon * target.objective().total : options.epsilon;
+      options.epsilon * (options.epsilon_is_fraction ? whole_of(target, start) : 1.0);
   LoopPatch patch(set, static_cast<std::uint32_t>(first));
   double width = std::numbers::pi;
   for (int level = 1; width > kFinestRingRad; ++level) {

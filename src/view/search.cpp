@@ -86,7 +86,8 @@ void check_search(const ViewObjective& objective, const SearchOptions& options) 
   if (!(options.epsilon >= 0.0) || !std::isfinite(options.epsilon)) {
     throw InvalidInput("option epsilon must be finite and not negative");
   }
-  if (!(objective.total >= 0.0) || !std::isfinite(objective.total)) {
+  const double total = objective.total.value_or(0.0);
+  if (!(total >= 0.0) || !std::isfinite(total)) {
     throw InvalidInput("the total score of a search must be finite and not negative");
   }
 }

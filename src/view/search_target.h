@@ -50,7 +50,9 @@ class SearchTarget {
   }
 
   /// Whether every view is as good as any other.
-  [[nodiscard]] bool is_flat() const { return objective_->total == 0.0; }
+  [[nodiscard]] bool is_flat() const {
+    return objective_->total.has_value() && *objective_->total == 0.0;
+  }
 
   /// Whether a preference, not the score, is maximised.
   [[nodiscard]] bool is_preference() const {

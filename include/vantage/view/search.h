@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -41,7 +42,7 @@ struct SearchOptions {
   ViewSphereBase base = ViewSphereBase::Icosahedron;  ///< Of the start set.
   int subdivisions = 3;             ///< Of the base: start of rapid, set of exhaustive; 0–8.
   double epsilon = 0.001;           ///< Rapid stops when a ring gains less than this …
-  bool epsilon_is_fraction = true;  ///< … as a fraction of `total`, or as a raw sum.
+  bool epsilon_is_fraction = true;  ///< … as a fraction of ViewObjective::total, or as a raw sum.
   bool require_narrow_ring = true;  ///< Rapid also needs a ring narrower than 2° (ours).
   int starts = 8;          ///< Random directions that a gradient search starts from; 1–4096.
   std::uint64_t seed = 0;  ///< Of these directions.
@@ -105,9 +106,11 @@ using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
 /// are searched by this one interface.
 struct ViewObjective {
   ScoreBatch score{};  ///< Required; never NaN. −∞ of a view that is not to be taken.
-  /// The score if everything were visible, ≥ 0: what SearchOptions::epsilon as a fraction refers
-  /// to. At 0 all views are equal, and the first direction is the answer.
-  double total = 0.0;
+  /// The score if everything were visible, ≥ 0, if there is such a thing: what SearchOptions::epsilon as a
+  /// fraction refers to, unless a preference is maximised; unset, or of a preference, that is the largest
+  /// size of a value in the start set. If it is given as 0 all scores are equal: a search ends after its
+  /// start set, with the best of that.
+  std::optional<double> total{};
   /// Nearly the score at a fraction of its cost: tells SearchStrategy::Global where to score.
   /// Unset: the score does.
   ScoreBatch surrogate{};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ TEST(FindViews, SayWhatShareOfTheBestScoreTheViewHasWhereLessIsBetterToo) {
   for (const char* const name : {"projected-area", "instability"}) {
     const ViewOptions options = unrefined({.method = name});
     const ShapeAnalysis shape = analyse_shape(model, options);
-    const ViewReport report = find_views(shape, UpAxis::Y, options);
+    const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
     const double own = report.best.score;
     const double best = report.highest_score;
     const bool is_less = find_measure(name).better == Better::Less;
@@ -107,13 +108,34 @@ TEST(ExtremeViews, AreFoundFromACoarserSetToo) {
   EXPECT_NEAR(coarse.best.value, usual.best.value, 1e-3 * usual.best.value);
 }
 
+TEST(ExtremeViews, TellTheirProgressUpToOne) {
+  const Model model = model_of(box(1.0, 2.0, 3.0, 2));
+  const std::vector<Measure> measures{find_measure("silhouette-length")};
+  const ShapeAnalysis shape = analyse_for(model, unrefined(), measures);
+  std::size_t told = 0;
+  double last = 0.0;
+  const RunContext run{.report = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    ++told;
+  }};
+  ViewMeasurer measurer(measure_subject(shape, {}), measures, 2);
+  extreme_views(measurer, 0, {}, run);
+  EXPECT_EQ(last, 1.0);
+  EXPECT_GT(told, 10U);
+  ViewMeasurer again(measure_subject(shape, {}), measures, 2);
+  last = 0.0;
+  best_view(again, 0, run);
+  EXPECT_EQ(last, 1.0);
+}
+
 /// find_views() of the box 1 × 2 × 3 by the area seen of each face.
 ViewReport views_of_a_box(ViewOptions options) {
   options.method = "viewpoint-entropy";
   options.search.subdivisions = 2;
   const std::vector<Measure> measures{find_measure(options.method)};
   const ShapeAnalysis shape = analyse_for(model_of(box(1.0, 2.0, 3.0, 2)), options, measures);
-  return find_views(shape, UpAxis::Y, options);
+  return find_views(shape, ModelFrame(UpAxis::Y), options);
 }
 
 TEST(FindViewsByAMeasure, TakesOfMirrorImagesTheOneTowardTheFront) {
@@ -177,7 +199,8 @@ TEST(FindViewsByAMeasure, DoNotHangOnTheUnit) {
   for (const double scale : {1.0, 0x1p70, 0x1p-70}) {
     const Model model =
         model_of(moved(y_of_tubes(0.2, 10), scale, 0.0, Vec3::UnitX(), Vec3::Zero()));
-    found.push_back(find_views(analyse_for(model, options, measures), UpAxis::Y, options));
+    found.push_back(
+        find_views(analyse_for(model, options, measures), ModelFrame(UpAxis::Y), options));
   }
   for (const ViewReport& report : found) {
     EXPECT_NEAR(report.best.score, found[0].best.score, 1e-6 * found[0].best.score);

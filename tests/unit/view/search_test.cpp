@@ -342,6 +342,47 @@ INSTANTIATE_TEST_SUITE_P(Strategies, SearchBy,
                                          SearchStrategy::Global, SearchStrategy::Dense,
                                          SearchStrategy::Gradient));
 
+TEST_P(SearchBy, NeedsNoTotal) {
+  const FoundView with =
+      search_view({scoring(three_hills), 1.0}, Goal::Best, {.strategy = GetParam()});
+  const FoundView without =
+      search_view({scoring(three_hills)}, Goal::Best, {.strategy = GetParam()});
+  EXPECT_LT(degrees_between(without.direction, with.direction), 0.1);
+}
+
+TEST_P(SearchBy, EndsWithTheBestOfItsStartSetWhereAllScoresAreSaidToBeEqual) {
+  const FoundView found =
+      search_view({scoring(three_hills), 0.0}, Goal::Best, {.strategy = GetParam()});
+  EXPECT_EQ(found.trace.back().level, 0);
+  for (const SearchStep& step : found.trace) {
+    EXPECT_LE(step.score, found.score);
+  }
+}
+
+TEST(RapidSearch, TakesEpsilonAsAFractionOfTheLargestInItsStartSetWithoutATotal) {
+  SearchOptions options = paper();
+  options.epsilon_is_fraction = true;
+  // The largest of the corners is 1.5774, the first ring gains 0.4226.
+  const auto last_level = [&](double epsilon) {
+    options.epsilon = epsilon;
+    return search_view({scoring(height)}, Goal::Best, options).trace.back().level;
+  };
+  EXPECT_EQ(last_level(0.4227 / 1.5773), 1);
+  EXPECT_GT(last_level(0.4225 / 1.5774), 1);
+}
+
+TEST(RapidSearch, FollowsAPreferenceOnAScaleOfItsOwn) {
+  const SearchOptions options{.strategy = SearchStrategy::Rapid};
+  const FoundView plain = search_view({scoring(three_hills), 1.0}, Goal::Best, options);
+  for (const double scale : {1e-6, 1e6}) {
+    ViewObjective objective{scoring(three_hills), 1.0};
+    objective.preference = [&](const Vec3& d, double) { return scale * three_hills(d); };
+    const FoundView found = search_view(objective, Goal::Best, options);
+    EXPECT_LT(degrees_between(found.direction, plain.direction), 0.1) << scale;
+    EXPECT_LT(found.evaluations, 2 * plain.evaluations) << scale;
+  }
+}
+
 TEST(SearchView, RefusesOptionsOutsideTheirRange) {
   EXPECT_THROW(search_view({scoring(three_hills), 1.0}, Goal::Best, {.subdivisions = 9}),
                InvalidInput);
