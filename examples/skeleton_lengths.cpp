@@ -38,7 +38,7 @@ int main() {
   const TriMesh mesh = torus(96, 32);
   const ContractionHistory history = contract(mesh);
   const Skeleton skeleton = extract_skeleton(mesh, history);
-  const KssmMap map = compute_kssm(mesh, history, skeleton.curve, {}, {}, skeleton.other_curve);
+  const KssmMap map = compute_kssm(mesh, history, skeleton);
   std::printf(
       "%zu levels, %zu nodes, %zu cycle, length %.2f (the circle has %.2f), first KSSM %.3f\n",
       history.level_count(), skeleton.graph.nodes.size(), cycle_count(skeleton.graph),

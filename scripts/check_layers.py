@@ -15,7 +15,7 @@ ALLOWED = {
     "contraction": "core mesh spatial operators",
     "skeleton": "core mesh spatial contraction",
     "visibility": "core mesh spatial",
-    "significance": "core mesh spatial contraction",
+    "significance": "core mesh spatial contraction skeleton",
     "view": "core mesh spatial significance visibility",
     "orientation": "core mesh spatial",
     "choice": "core mesh spatial",

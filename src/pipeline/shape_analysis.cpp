@@ -87,8 +87,7 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   kssm.area_weighted_mean |= options.weight == Weight::Area;
   shape.kssm = options.kssm_to_finished_graph
                    ? compute_kssm(shape.surface, shape.history, skeleton.graph, kssm, run)
-                   : compute_kssm(shape.surface, shape.history, skeleton.curve, kssm, run,
-                                  skeleton.other_curve);
+                   : compute_kssm(shape.surface, shape.history, skeleton, kssm, run);
   shape.significance = shape.kssm.of_vertex;
   if (options.method == "mesh-saliency") {
     shape.significance = compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;

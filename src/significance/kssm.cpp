@@ -260,4 +260,9 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
   return map;
 }
 
+KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
+                     const Skeleton& skeleton, const KssmOptions& options, const RunContext& run) {
+  return compute_kssm(mesh, history, skeleton.curve, options, run, skeleton.other_curve);
+}
+
 }  // namespace vantage

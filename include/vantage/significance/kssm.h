@@ -10,6 +10,7 @@
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/skeleton/skeleton.h"
 
 /// \file
 /// The Kinematics Significance based Skeleton Map of the paper that docs/references.md names first: with
@@ -88,6 +89,12 @@ struct KssmMap {
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                      const CurveGraph& skeleton, const KssmOptions& options = {},
                      const RunContext& run = {}, const CurveGraph& other = {});
+
+/// The same from a skeleton: to its curve and its other_curve, as the program does it.
+/// \param skeleton of extract_skeleton() or extract_curve() from the same history.
+KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
+                     const Skeleton& skeleton, const KssmOptions& options = {},
+                     const RunContext& run = {});
 
 /// What one level adds to the map: its displacement, or its velocity, normalised to [0, 1], times the
 /// level's factor. Over all levels the summands make KssmMap::of_vertex.

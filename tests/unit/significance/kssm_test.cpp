@@ -313,7 +313,7 @@ TEST(ComputeKssm, RefusesAnotherMeshsHistory) {
 
 TEST(ComputeKssm, RefusesAGraphWithoutNodes) {
   const HandMade made;
-  EXPECT_THROW(compute_kssm(made.mesh, made.history, {}), InvalidInput);
+  EXPECT_THROW(compute_kssm(made.mesh, made.history, CurveGraph{}), InvalidInput);
 }
 
 TEST(ComputeKssm, StopsOnRequest) {
@@ -322,6 +322,18 @@ TEST(ComputeKssm, StopsOnRequest) {
   source.request_stop();
   EXPECT_THROW(compute_kssm(made.mesh, made.history, made.graph, {}, {.stop = source.get_token()}),
                Cancelled);
+}
+
+TEST(ComputeKssm, OfASkeletonMeasuresToItsCurves) {
+  HandMade made;
+  const CurveGraph other{.nodes = {{1, 1, 0}}, .edges = {}};
+  const Skeleton skeleton{.curve = made.graph, .other_curve = other};
+  const KssmMap map = compute_kssm(made.mesh, made.history, skeleton);
+  const KssmMap by_hand = compute_kssm(made.mesh, made.history, made.graph, {}, {}, other);
+  EXPECT_EQ(map.of_vertex, by_hand.of_vertex);
+  EXPECT_EQ(map.displacement, by_hand.displacement);
+  EXPECT_NE(map.of_vertex, compute_kssm(made.mesh, made.history, made.graph).of_vertex);
+  EXPECT_THROW(compute_kssm(made.mesh, made.history, Skeleton{}), InvalidInput);
 }
 
 }  // namespace
