@@ -32,7 +32,7 @@ constexpr std::uint64_t kBytesPerSeenFace = 16;
 ViewChannel channel_of(const ShapeAnalysis& shape, const ScoringCamera& camera,
                        std::span<const Vec3> directions, const RunContext& run) {
   const FaceVisibility faces(shape.surface, shape.sides);
-  return channel_table(faces, shape.surface.triangles.size(), camera.viewpoints(directions), run);
+  return channel_table(faces, camera.viewpoints(directions), run);
 }
 
 void require_memory(std::span<const Measure> measures, std::size_t faces,

@@ -185,10 +185,10 @@ MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ra
   return result;
 }
 
-ViewChannel channel_table(const FaceVisibility& faces, std::size_t face_count,
-                          std::span<const Viewpoint> eyes, const RunContext& run) {
+ViewChannel channel_table(const FaceVisibility& faces, std::span<const Viewpoint> eyes,
+                          const RunContext& run) {
   ViewChannel channel;
-  channel.face_count = face_count;
+  channel.face_count = faces.face_count();
   channel.views.resize(eyes.size());
   const double unit = faces.area_unit();
   parallel_for(run.quiet(), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {

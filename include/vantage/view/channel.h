@@ -86,10 +86,10 @@ MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ra
                         const RunContext& run = {});
 
 /// The channel of what is seen of each face, however little and whether a corner is seen or not: the
-/// projected areas that FaceVisibility measures, in its area_unit(). \param face_count faces of its mesh.
-/// \throw Cancelled
-ViewChannel channel_table(const FaceVisibility& faces, std::size_t face_count,
-                          std::span<const Viewpoint> eyes, const RunContext& run = {});
+/// projected areas that FaceVisibility measures, in its area_unit(). \throw InvalidInput if an eye is not
+/// finite, Cancelled
+ViewChannel channel_table(const FaceVisibility& faces, std::span<const Viewpoint> eyes,
+                          const RunContext& run = {});
 
 /// What measures take from the set of views that they are defined over.
 struct ChannelTerms {

@@ -162,7 +162,7 @@ TEST(ChannelTable, HoldsTheProjectedAreaOfACubesSide) {
   const TriMesh cube = test::box(1.0, 1.0, 1.0, 1);
   const std::vector<Viewpoint> eyes{{Projection::Orthographic, Vec3::UnitX()}};
   const FaceVisibility faces(cube, {FaceSides::Front});
-  const ViewChannel channel = channel_table(faces, cube.triangles.size(), eyes);
+  const ViewChannel channel = channel_table(faces, eyes);
   double area = 0.0;
   for (const FaceArea& a : channel.views[0]) {
     area += static_cast<double>(a.area);
@@ -197,7 +197,7 @@ TEST_F(TriangleBehindPlates, IsInTheChannelThoughNoCornerIsSeen) {
   const auto visible = visibility.visible_vertices(eyes[0]);
   EXPECT_EQ(std::count(visible.begin(), visible.begin() + 3, 0), 3);
   const FaceVisibility faces(mesh, sides);
-  const ViewChannel channel = channel_table(faces, mesh.triangles.size(), eyes);
+  const ViewChannel channel = channel_table(faces, eyes);
   ASSERT_EQ(channel.views[0].size(), 7U);
   EXPECT_EQ(channel.face_count, 7U);
   // The squares hide 1, 1/2 and 1/2 of the triangle.
@@ -211,9 +211,9 @@ TEST_F(TriangleBehindPlates, IsInTheChannelThoughNoCornerIsSeen) {
 TEST_F(TriangleBehindPlates, IsTheSameChannelForAnyThreads) {
   const FaceVisibility faces(mesh, sides);
   eyes.resize(7, {Projection::Perspective, Vec3(20, 3, 1)});
-  const ViewChannel one = channel_table(faces, mesh.triangles.size(), eyes, {.max_threads = 1});
-  const ViewChannel three = test::with_many_threads(
-      [&] { return channel_table(faces, mesh.triangles.size(), eyes, {.max_threads = 3}); });
+  const ViewChannel one = channel_table(faces, eyes, {.max_threads = 1});
+  const ViewChannel three =
+      test::with_many_threads([&] { return channel_table(faces, eyes, {.max_threads = 3}); });
   for (std::size_t v = 0; v < eyes.size(); ++v) {
     ASSERT_EQ(one.views[v].size(), three.views[v].size());
     for (std::size_t k = 0; k < one.views[v].size(); ++k) {

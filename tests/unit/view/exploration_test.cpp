@@ -90,8 +90,7 @@ TEST(Exploration, OfARingStepsBetweenNeighboursUntilTheShareIsSeenAndNotFurther)
   for (const Vec3& d : set.directions) {
     eyes.push_back(camera.viewpoint(d));
   }
-  const ViewChannel channel =
-      channel_table(FaceVisibility(ring, sides), ring.triangles.size(), eyes);
+  const ViewChannel channel = channel_table(FaceVisibility(ring, sides), eyes);
   const IndexLists next = vertex_neighbours({set.directions, set.triangles});
   const Exploration way = explore_by_entropy(channel, next, 5, 0.98);
   EXPECT_GE(way.coverage, 0.98);

@@ -333,7 +333,7 @@ TEST(Measures, OfTheSetDoNotLookWhereTheSubjectBringsWhatTheSetSees) {
     eyes.push_back(ring.given.camera.viewpoint(direction));
   }
   const FaceVisibility faces(ring.mesh, ring.sides);
-  ViewChannel seen = channel_table(faces, ring.mesh.triangles.size(), eyes);
+  ViewChannel seen = channel_table(faces, eyes);
   MeasureSubject given = ring.given;
   given.seen_by_set = &seen;
   std::vector<Measure> measures = test::channel_measures();
