@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "vantage/core/camera.h"
+#include "vantage/core/error.h"
+
+#include "core/unit_direction.h"
 
 namespace vantage {
 
-UprightFrame upright_frame(const Vec3& up) {
+UprightFrame upright_frame(const Vec3& towards) {
+  const Vec3 up = unit_direction(towards);
   Eigen::Index axis = 0;
   up.cwiseAbs().maxCoeff(&axis);
   UprightFrame frame;
@@ -16,7 +22,12 @@ UprightFrame upright_frame(const Vec3& up) {
 }
 
 UprightFrame upright_frame(const Vec3& up, const Vec3& front) {
-  return {up.cross(front), up, front};
+  constexpr double kRightAngle = 1e-6;  // a sine: beyond what rounding or six digits leave
+  const UprightFrame frame{Vec3::Zero(), unit_direction(up), unit_direction(front)};
+  if (!(std::abs(frame.up.dot(frame.front)) <= kRightAngle)) {
+    throw InvalidInput("the front of a model must be at right angles to its up");
+  }
+  return {frame.up.cross(frame.front), frame.up, frame.front};
 }
 
 }  // namespace vantage

@@ -13,6 +13,7 @@
 
 #include "core/degrees.h"
 #include "core/dense_algebra.h"
+#include "core/unit_direction.h"
 #include "io/camera_axes.h"
 
 namespace vantage {
@@ -114,10 +115,11 @@ std::string html_text(std::string_view text) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const Camera& camera,
-                                                                         const Vec3& up) {
+                                                                         const Vec3& up_of_model) {
   if (camera.projection != Projection::Perspective) {
     return {};
   }
+  const Vec3 up = unit_direction(up_of_model);
   const Matrix3 axes = camera_axes(camera).transpose();  // right, up and back as rows
   const Matrix3 turn = roll_against(axes, up) < kMostRoll ? turn_to_y(up) : axes;
   const Matrix3 turned = axes * turn.transpose();  // the camera's axes in the element's scene

@@ -9,6 +9,7 @@
 #include "vantage/pipeline/find_views.h"
 #include "vantage/render/render.h"
 
+#include "core/unit_direction.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -42,8 +43,9 @@ ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& opti
 }
 
 ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                           const ScoringCamera& camera, const Vec3& direction, UpAxis up,
+                           const ScoringCamera& camera, const Vec3& towards, UpAxis up,
                            const ViewOptions& options, const RunContext& run) {
+  const Vec3 direction = unit_direction(towards);
   const auto visible = visibility.visible_vertices(camera.viewpoint(direction), run.quiet());
   double total = 0.0;
   for (const double value : shape.significance) {

@@ -5,12 +5,14 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/view/channel.h"
 
+#include "core/unit_direction.h"
 #include "pipeline/describe_view.h"
 #include "pipeline/drawn_points.h"
 #include "pipeline/view_preparation.h"
@@ -170,9 +172,10 @@ Aim aim_at(const Vec3& focus, const TourPose& pose, const ScoringCamera& camera)
 }  // namespace
 
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                              const ViewScorer& scorer, const Vec3& best, const ModelFrame& frame,
+                              const ViewScorer& scorer, const Vec3& first, const ModelFrame& frame,
                               const ViewOptions& options, std::vector<std::string>& warnings,
                               const RunContext& run) {
+  const Vec3 best = unit_direction(first);
   const ScoringCamera& camera = scorer.camera();
   const ViewSetRequest& request = options.view_set.value();
   check_fields(request, kViewSetRequestFields);
@@ -217,6 +220,10 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
 std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,
                                  const ScoringCamera& camera, UpAxis up, double aspect,
                                  std::size_t count, double margin_percent) {
+  if (!(aspect > 0.0) || !std::isfinite(aspect) ||
+      !(margin_percent >= 0.0 && margin_percent < 50.0)) {
+    throw InvalidInput("a tour's pictures need an aspect above 0 and a margin in [0, 50) per cent");
+  }
   std::vector<Vec3> stops;
   if (set.way) {
     stops = set.way->stops;

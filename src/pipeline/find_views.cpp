@@ -12,6 +12,7 @@
 #include "vantage/spatial/mirror_symmetry.h"
 
 #include "core/parallel.h"
+#include "core/unit_direction.h"
 #include "pipeline/coarse_surface.h"
 #include "pipeline/describe_view.h"
 #include "pipeline/frame_choice.h"
@@ -107,7 +108,7 @@ FoundView one_view(const MapObjective& map, const Preference& preference, Goal g
                    const RunContext& run) {
   FoundView found;
   if (goal == Goal::Best && options.best_view) {
-    found.direction = *options.best_view;
+    found.direction = unit_direction(*options.best_view);
     return found;
   }
   const ViewObjective objective = map.objective(preference);
@@ -220,7 +221,7 @@ PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
   if (options.best_view) {
     PictureView given{.choice = choose_frame(model, prepared, options),
                       .vertices = prepared.surface.positions.size()};
-    given.view.direction = *options.best_view;
+    given.view.direction = unit_direction(*options.best_view);
     frame_view(given.view, prepared, given.choice.frame.up, options);
     return given;
   }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "core/unit_direction.h"
 #include "pipeline/twins.h"
 
 namespace vantage {
@@ -88,7 +89,7 @@ SettledViews search_settled(const ViewObjective& objective, const Preference& pr
                           objective);
   if (options.best_view) {
     FoundView& best = found.best;
-    best.direction = *options.best_view;
+    best.direction = unit_direction(*options.best_view);
     best.score = scored_beside({best.direction}, best, found.worst, objective).front();
     best.preference = preference(best.direction, best.score);
   } else {

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <string>
 
+#include "vantage/core/error.h"
 #include "vantage/core/version.h"
 #include "vantage/io/camera_files.h"
 
 #include "core/fingerprint.h"
 #include "core/json_text.h"
+#include "core/unit_direction.h"
 #include "io/files.h"
 #include "pipeline/land.h"
 #include "pipeline/option_echo.h"
@@ -99,12 +101,22 @@ UpAxis default_front(UpAxis up) {
   return axis_nearest(upright_frame(up_vector(up)).front);
 }
 
-UpAxis axis_nearest(const Vec3& direction) {
+UpAxis axis_nearest(const Vec3& towards) {
+  const Vec3 direction = unit_direction(towards);
   UpAxis nearest = UpAxis::X;
   for (const UpAxis axis : {UpAxis::Y, UpAxis::Z, UpAxis::MinusX, UpAxis::MinusY, UpAxis::MinusZ}) {
     nearest = up_vector(axis).dot(direction) > up_vector(nearest).dot(direction) ? axis : nearest;
   }
   return nearest;
+}
+
+ModelFrame::ModelFrame(UpAxis its_up) : ModelFrame(its_up, default_front(its_up)) {}
+
+ModelFrame::ModelFrame(UpAxis its_up, UpAxis its_front) : up(its_up), front(its_front) {
+  if (its_up == UpAxis::Any || its_front == UpAxis::Any) {
+    throw InvalidInput("up and front of a model's frame must be axes, not any");
+  }
+  (void)upright_frame(*this);
 }
 
 UprightFrame upright_frame(const ModelFrame& frame) {

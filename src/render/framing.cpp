@@ -9,6 +9,8 @@
 #include "vantage/core/error.h"
 #include "vantage/render/render.h"
 
+#include "core/unit_direction.h"
+
 namespace vantage {
 namespace {
 
@@ -129,7 +131,7 @@ void check_arguments(std::span<const Vec3> points, const Viewpoint& eye, const V
   }
   const bool eye_is_valid = eye.projection == Projection::Perspective
                                 ? (eye.position - centre).norm() > 0.0
-                                : eye.position.norm() > 0.0;
+                                : unit_vector(eye.position).has_value();
   if (!eye_is_valid || !eye.position.allFinite() || !centre.allFinite()) {
     throw InvalidInput("framing needs an eye that is finite and away from the model's centre");
   }
@@ -267,7 +269,9 @@ Camera frame_orthographic(std::span<const Vec3> points, const Vec3& direction, c
 
 }  // namespace
 
-Vec3 upright(const Vec3& direction, const Vec3& model_up) {
+Vec3 upright(const Vec3& towards, const Vec3& up_of_model) {
+  const Vec3 direction = unit_direction(towards);
+  const Vec3 model_up = unit_direction(up_of_model);
   const Vec3 radial = orthogonal_part(model_up, direction);
   const double sine = radial.norm();
   const bool above = direction.dot(model_up) > 0.0;
@@ -294,7 +298,8 @@ Camera frame_points(std::span<const Vec3> points, const Viewpoint& eye, const Ve
   check_arguments(points, eye, centre, aspect, margin);
   const Room room = room_for(aspect, margin);
   if (eye.projection == Projection::Orthographic) {
-    return frame_orthographic(points, eye.position.normalized(), centre, model_up, room);
+    return frame_orthographic(points, unit_direction(eye.position).normalized(), centre, model_up,
+                              room);
   }
   return frame_perspective(points, eye.position, centre, model_up, room);
 }
@@ -309,7 +314,7 @@ double fitting_aspect(std::span<const Vec3> points, const Viewpoint& eye, const 
   Bounds bounds;
   double least = kMinTangent;
   if (eye.projection == Projection::Orthographic) {
-    const Vec3 direction = eye.position.normalized();
+    const Vec3 direction = unit_direction(eye.position).normalized();
     const ParallelExtent extent = parallel_extent(
         points, direction, centre, axes_along(-direction, upright(direction, model_up)));
     bounds = extent.bounds;

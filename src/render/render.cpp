@@ -53,7 +53,7 @@ void check_input(const TriMesh& mesh, const Paint& paint, const RenderOptions& o
     throw InvalidInput("there are " + std::to_string(paint.vertex_values.size()) + " values for " +
                        std::to_string(mesh.positions.size()) + " vertices");
   }
-  if (!(options.up.norm() > 0.0) || !options.up.allFinite()) {
+  if (!unit_vector(options.up)) {
     throw InvalidInput("the up direction of a ground must be finite and not zero");
   }
   if (overlay.graph != nullptr && !(overlay.radius > 0.0 && std::isfinite(overlay.radius))) {

@@ -8,6 +8,7 @@
 
 #include "core/degrees.h"
 #include "core/parallel.h"
+#include "core/unit_direction.h"
 #include "render/feature_edges.h"
 #include "render/sample_pattern.h"
 
@@ -84,7 +85,7 @@ Scene::Scene(const DrawnSurface& surface, const Camera& camera, std::span<const 
   run.check();
   std::optional<Floor> floor;
   if (options.ground) {
-    ground_.emplace(surface.mesh(), surface.rays(), options.up.normalized(),
+    ground_.emplace(surface.mesh(), surface.rays(), unit_direction(options.up).normalized(),
                     kOcclusionReach * reach, run);
     floor = ground_->floor();
   }

@@ -10,6 +10,8 @@
 
 #include "vantage/core/error.h"
 
+#include "core/unit_direction.h"
+
 namespace vantage {
 namespace {
 
@@ -120,7 +122,8 @@ DirectionSet direction_set(ViewSphereBase base, int level) {
 }
 
 Vec3 loop_edge_direction(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 sum = 0.375 * (a + b) + 0.125 * (c + d);
+  const Vec3 sum = 0.375 * (unit_direction(a) + unit_direction(b)) +
+                   0.125 * (unit_direction(c) + unit_direction(d));
   return sum.normalized();
 }
 

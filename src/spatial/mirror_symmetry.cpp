@@ -14,6 +14,7 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "core/unit_direction.h"
 #include "spatial/point_cells.h"
 
 namespace vantage {
@@ -207,7 +208,7 @@ std::vector<MirrorPlane> mirror_planes(const TriMesh& surface, const MirrorOptio
 std::vector<Vec3> mirror_images(const Vec3& direction, std::span<const MirrorPlane> planes,
                                 double apart_rad) {
   const double near = std::cos(apart_rad);
-  std::vector<Vec3> images{direction};
+  std::vector<Vec3> images{unit_direction(direction)};
   for (std::size_t i = 0; i < images.size(); ++i) {
     for (const MirrorPlane& plane : planes) {
       const Vec3 image = images[i] - 2.0 * plane.normal.dot(images[i]) * plane.normal;

@@ -13,6 +13,7 @@
 #include "vantage/view/measure.h"
 
 #include "core/parallel.h"
+#include "core/unit_direction.h"
 #include "view/measured_model.h"
 #include "view/shared_logs.h"
 #include "view/skeleton_sight.h"
@@ -241,7 +242,8 @@ MeasureValues ViewMeasurer::State::values_with(std::size_t m, std::span<const Ve
 std::vector<double> ViewMeasurer::State::kept_values_of(std::size_t m,
                                                         std::span<const Vec3> directions,
                                                         const RunContext& run) {
-  const auto row_of = [&](const Vec3& d) -> std::vector<double>& {
+  const auto row_of = [&](const Vec3& given) -> std::vector<double>& {
+    const Vec3 d = unit_direction(given);
     return kept.try_emplace({d.x(), d.y(), d.z()}, measures.size(), kNotMeasured).first->second;
   };
   std::vector<Vec3> fresh;
@@ -257,11 +259,9 @@ std::vector<double> ViewMeasurer::State::kept_values_of(std::size_t m,
       row[k] = std::isnan(values[k][i]) ? row[k] : values[k][i];
     }
   }
-  std::vector<double> of_measure;
-  of_measure.reserve(directions.size());
-  for (const Vec3& direction : directions) {
-    of_measure.push_back(row_of(direction)[m]);
-  }
+  std::vector<double> of_measure(directions.size());
+  std::ranges::transform(directions, of_measure.begin(),
+                         [&](const Vec3& direction) { return row_of(direction)[m]; });
   return of_measure;
 }
 

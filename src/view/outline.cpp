@@ -14,6 +14,7 @@
 
 #include "core/cross.h"
 #include "core/shannon.h"
+#include "core/unit_direction.h"
 #include "view/outline_sweep.h"
 #include "view/turning.h"
 
@@ -130,7 +131,7 @@ void add_turning(const std::vector<PicturePoint>& points, std::size_t stride, Tu
 
 SilhouetteDisc silhouette_disc(const Sphere& sphere, const Viewpoint& eye) {
   if (eye.projection == Projection::Orthographic) {
-    return {eye.position.normalized(), sphere.diameter};
+    return {unit_direction(eye.position).normalized(), sphere.diameter};
   }
   const Vec3 to_eye = eye.position - sphere.centre;
   const double distance = to_eye.norm();

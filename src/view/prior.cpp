@@ -3,12 +3,15 @@
 
 #include <cmath>
 
+#include "core/unit_direction.h"
+
 namespace vantage {
 
-double ViewPrior::factor(const UprightFrame& frame, const Vec3& direction) const {
+double ViewPrior::factor(const UprightFrame& frame, const Vec3& towards) const {
   if (is_uniform) {
     return 1.0;
   }
+  const Vec3 direction = unit_direction(towards);
   const Vec3 local(frame.side.dot(direction), frame.up.dot(direction), frame.front.dot(direction));
   const double rise = local.y() - upright.elevation_sine;
   const double corner = 2.0 * local.x() * local.z();

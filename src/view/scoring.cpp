@@ -10,6 +10,7 @@
 
 #include "core/parallel.h"
 #include "core/sizes.h"
+#include "core/unit_direction.h"
 
 namespace vantage {
 
@@ -22,11 +23,12 @@ double ScoringCamera::distance() const {
 }
 
 Vec3 ScoringCamera::eye(const Vec3& direction) const {
-  return sphere.centre + distance() * direction;
+  return sphere.centre + distance() * unit_direction(direction);
 }
 
 Viewpoint ScoringCamera::viewpoint(const Vec3& direction) const {
-  return {projection, projection == Projection::Perspective ? eye(direction) : direction};
+  return {projection,
+          projection == Projection::Perspective ? eye(direction) : unit_direction(direction)};
 }
 
 std::vector<Viewpoint> ScoringCamera::viewpoints(std::span<const Vec3> directions) const {

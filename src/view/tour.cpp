@@ -5,6 +5,7 @@
 #include "vantage/core/error.h"
 #include "vantage/view/view_set.h"
 
+#include "core/unit_direction.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
@@ -22,9 +23,11 @@ class Distances {
  public:
   explicit Distances(std::span<const Vec3> directions)
       : count_(directions.size()), angles_(count_ * count_, 0.0) {
+    std::vector<Vec3> units(directions.begin(), directions.end());
+    std::ranges::transform(units, units.begin(), unit_direction);
     for (std::size_t i = 0; i < count_; ++i) {
       for (std::size_t j = 0; j < count_; ++j) {
-        angles_[i * count_ + j] = angle_between(directions[i], directions[j]);
+        angles_[i * count_ + j] = angle_between(units[i], units[j]);
       }
     }
   }

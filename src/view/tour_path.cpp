@@ -9,6 +9,7 @@
 #include "vantage/view/view_set.h"
 
 #include "core/dense_algebra.h"
+#include "core/unit_direction.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
@@ -119,12 +120,15 @@ double unwrapped(double angle, double near) {
 
 }  // namespace
 
-std::vector<TourPose> tour_path(std::span<const Vec3> stops, const Vec3& model_up,
+std::vector<TourPose> tour_path(std::span<const Vec3> stops, const Vec3& up_of_model,
                                 std::size_t count) {
   if (stops.size() < 2 || count < 3) {
     throw InvalidInput("a tour's path needs at least two stops and three poses");
   }
-  const std::vector<Vec3> directions = equal_steps(stops, model_up, count);
+  const Vec3 model_up = unit_direction(up_of_model);
+  std::vector<Vec3> units(stops.begin(), stops.end());
+  std::ranges::transform(units, units.begin(), unit_direction);
+  const std::vector<Vec3> directions = equal_steps(units, model_up, count);
   // A frame carried along without turning about the line of sight; upright is an angle in it.
   std::vector<Vec3> zero{directions[0].unitOrthogonal()};
   std::vector<double> upright{roll_of(model_up, directions[0], zero[0])};

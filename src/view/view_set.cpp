@@ -10,6 +10,7 @@
 #include "vantage/core/error.h"
 #include "vantage/spatial/directions.h"
 
+#include "core/unit_direction.h"
 #include "view/cover.h"
 #include "view/sphere_angles.h"
 
@@ -220,8 +221,9 @@ std::vector<double> bit_shares(std::span<const double> of_face) {
 ViewSet chosen(SetsOf sets_of, std::span<const double> significance, const Vec3& first,
                const ViewSetOptions& options, const RunContext& run) {
   check(options);
+  const Vec3 unit = unit_direction(first);
   return Selection(std::move(sets_of), significance.size(), options, run)
-      .make(std::span(&first, 1), true, significance, run);
+      .make(std::span(&unit, 1), true, significance, run);
 }
 
 ViewSet measured(SetsOf sets_of, std::span<const double> significance,
@@ -231,8 +233,10 @@ ViewSet measured(SetsOf sets_of, std::span<const double> significance,
   if (directions.empty()) {
     throw InvalidInput("there must be at least one view to measure");
   }
+  std::vector<Vec3> units(directions.begin(), directions.end());
+  std::ranges::transform(units, units.begin(), unit_direction);
   return Selection(std::move(sets_of), significance.size(), options, run)
-      .make(directions, false, significance, run);
+      .make(units, false, significance, run);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "core/unit_direction.h"
 
 namespace vantage {
 namespace {
@@ -295,10 +296,7 @@ Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame) {
   if (eye.projection == Projection::Perspective) {
     return {eye.projection, frame.to_frame(eye.position)};
   }
-  if (!(eye.position.squaredNorm() > 0.0)) {
-    throw InvalidInput("the direction of an orthographic view must not be zero");
-  }
-  return {eye.projection, eye.position.normalized()};
+  return {eye.projection, unit_direction(eye.position).normalized()};
 }
 
 std::vector<std::uint32_t> morton_order(std::span<const Vec3> points) {

@@ -15,7 +15,7 @@ enum class Projection { Perspective, Orthographic };
 /// Where the surface is seen from: a point, or a direction at infinity.
 struct Viewpoint {
   Projection projection = Projection::Perspective;  ///< How space is mapped.
-  Vec3 position = Vec3::UnitZ();  ///< Perspective: the eye. Orthographic: unit vector to the eye.
+  Vec3 position = Vec3::UnitZ();  ///< Perspective: the eye. Orthographic: direction to the eye.
 };
 
 /// A camera that can take a picture.
@@ -37,9 +37,10 @@ struct UprightFrame {
 
 /// The frame of a model whose up is an axis of its coordinates. Its front is what most files of
 /// that up axis mean by it: +z when y is up (glTF, OBJ) or x is, −y when z is up (CAD, Blender).
-/// \param up a unit vector, nearest axis decides.
+/// \param up a direction, nearest axis decides. \throw InvalidInput if it is zero or not finite
 UprightFrame upright_frame(const Vec3& up);
-/// The frame of a model whose up and front are known: orthogonal unit vectors.
+/// The frame of a model whose up and front are known: directions at right angles. \throw InvalidInput if
+/// they are not, or one is zero or not finite
 UprightFrame upright_frame(const Vec3& up, const Vec3& front);
 
 }  // namespace vantage

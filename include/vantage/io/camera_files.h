@@ -71,8 +71,8 @@ std::string camera_animation_gltf(std::span<const Camera> cameras, double second
 /// out. So a model whose up is another axis is turned by
 /// `orientation`, about x if up is z: leave that attribute out for a copy of the model that a
 /// converter has turned so. A camera that is rolled by 10° or more turns the model instead.
-/// \param up a unit vector. \return empty for an orthographic camera, which the element
-/// does not have. \throw InvalidInput if the camera looks nowhere, or along its own up.
+/// \param up direction. \return empty for an orthographic camera, which the element does not have.
+/// \throw InvalidInput if the camera looks nowhere, or along its own up.
 std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const Camera& camera,
                                                                          const Vec3& up);
 

@@ -37,7 +37,8 @@ std::string base64(std::string_view bytes);
 
 /// Binary little-endian PLY of a map: x y z, quality (float), red green blue, triangles.
 /// \param double_precision positions as double instead of float.
-/// \param quality |V| values, or empty to leave the property out. \param colours |V|, or empty.
+/// \param quality |V| finite values, or empty to leave the property out. \param colours |V|, or empty.
+/// \throw InvalidInput if one is there in another number, or a value is not finite
 std::string ply_bytes(const TriMesh& mesh, std::span<const double> quality,
                       std::span<const Rgb8> colours, bool double_precision);
 
@@ -59,9 +60,9 @@ std::string skeleton_graphml(const SkeletonFile& skeleton);
 std::string skeleton_obj(const CurveGraph& graph);  ///< v and l lines.
 std::string skeleton_ply(const CurveGraph& graph);  ///< vertices and edges, ASCII.
 
-/// PNG, 8 bit RGBA, compression level 3. \throw IoError
+/// PNG, 8 bit RGBA. \throw InvalidInput unless there is a pixel and four values for each; IoError if libpng fails
 std::string png_bytes(const Image& image);
-/// PNG, 16 bit RGBA. \throw IoError
+/// PNG, 16 bit RGBA. \throw InvalidInput, IoError likewise
 std::string png_bytes(const DeepImage& image);
 
 /// WebP: colour at quality 90 of 100, alpha without loss; a third of the size of the PNG.

@@ -181,7 +181,8 @@ struct PictureView {
 PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
                               const ViewOptions& options, const RunContext& run = {});
 
-/// Describes the view from a given direction. \pre the map is there. \throw Cancelled
+/// Describes the view from a given direction, of any length but 0. \pre the map is there.
+/// \throw InvalidInput, Cancelled
 ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                            const ScoringCamera& camera, const Vec3& direction, UpAxis up,
                            const ViewOptions& options, const RunContext& run = {});
@@ -197,7 +198,8 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
 
 /// Cameras along the tour of a set, or its way, `count` at equal distances, all with the field of view that
 /// shows the whole surface, or its focus, from every one of them. \pre at least two different views.
-/// \param aspect width over height. \param margin_percent empty border, of the shorter side.
+/// \param aspect width over height, > 0. \param margin_percent empty border, of the shorter side, in [0, 50).
+/// \throw InvalidInput if an argument is outside its range, or the views are all the same; count is at least 3
 std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,
                                  const ScoringCamera& camera, UpAxis up, double aspect,
                                  std::size_t count, double margin_percent = 4.0);
@@ -209,7 +211,8 @@ struct PictureFrame {
 };
 
 /// The picture from a direction: of options.width × options.height, or, if options.fit_size, of as
-/// many pixels and the aspect of what is seen, between 1:2 and 2:1. [ours]
+/// many pixels and the aspect of what is seen, between 1:2 and 2:1. [ours] \throw InvalidInput if the
+/// direction is zero or not finite, or no picture from so near could show all
 PictureFrame frame_picture(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
                            const ViewOptions& options);
 

@@ -58,7 +58,7 @@ UpAxis default_up(const Model& model);
 enum class UpHabit { Format, MapCoordinates, HeightField };
 /// What most files of that up axis mean by the front: upright_frame()'s.
 UpAxis default_front(UpAxis up);
-/// The axis nearest to a direction.
+/// The axis nearest to a direction. \throw InvalidInput if that is zero or not finite
 UpAxis axis_nearest(const Vec3& direction);
 
 /// Two axes of a model's own frame; the third is to the right of a viewer in front.
@@ -68,13 +68,13 @@ struct ModelFrame {
 
   ModelFrame() = default;
 
-  ModelFrame(UpAxis its_up)  // NOLINT(google-explicit-constructor)
-      : up(its_up), front(default_front(its_up)) {}
-
-  ModelFrame(UpAxis its_up, UpAxis its_front) : up(its_up), front(its_front) {}
+  /// With the front that most files of that up axis mean: default_front(). \throw InvalidInput for Any
+  explicit ModelFrame(UpAxis its_up);
+  /// \throw InvalidInput unless they are axes at right angles.
+  ModelFrame(UpAxis its_up, UpAxis its_front);
 };
 
-/// The same as unit vectors.
+/// The same as unit vectors. \throw InvalidInput if they are not at right angles
 UprightFrame upright_frame(const ModelFrame& frame);
 
 /// How several views are chosen.
@@ -140,7 +140,7 @@ struct ViewOptions {
   bool fit_size = false;        ///< Pictures of a view take its aspect, and width × height pixels.
   double margin_percent = 4.0;  ///< Of pictures, of the shorter side, in [0, 45].
   bool pictures = true;         ///< Whether view.json names pictures.
-  /// Unit, from the centre to the eye: taken for the best view, as a sidecar may say.
+  /// From the centre to the eye, of any length but 0: taken for the best view, as a sidecar may say.
   std::optional<Vec3> best_view{};
   /// Several views besides best and worst.
   std::optional<ViewSetRequest> view_set{};

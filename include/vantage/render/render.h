@@ -56,7 +56,7 @@ struct RenderOptions {
   Style style = Style::Asset;    ///< How it looks.
   double crease_deg = 40.0;  ///< Edges that bend by more are sharp, softly over ± 10°; 0: facets.
   bool ground = false;       ///< A soft shadow on a level ground that touches the model.
-  Vec3 up = Vec3::UnitY();   ///< Of the ground.
+  Vec3 up = Vec3::UnitY();   ///< Of the ground; of any length but 0.
 };
 
 /// Names of Quality.
@@ -169,7 +169,8 @@ std::vector<Rgb8> colour_map(std::span<const double> values);
 /// the model's back is at the top of the picture, looking straight up its front is. It changes
 /// smoothly except, inside those 5°, for views that come from exactly behind: no field of up
 /// vectors around a pole can be smooth everywhere. The model's front is +z, or −y if up is ±z.
-/// \param direction unit vector to the eye. \param model_up unit axis.
+/// \param direction to the eye. \param model_up direction of the model's up axis; both of any length but 0.
+/// \throw InvalidInput
 Vec3 upright(const Vec3& direction, const Vec3& model_up);
 
 /// A camera at `eye` that shows all `points`, as large as fits, none clipped.
@@ -178,7 +179,7 @@ Vec3 upright(const Vec3& direction, const Vec3& model_up);
 /// `centre` to the eye, made orthogonal to the shifted line of sight. The target lies at the depth
 /// of `centre`. Orthographic: the eye is put on the line of sight, in front of all points.
 /// \param points at least one, finite. \param centre what the eye was placed around; not the eye.
-/// \param model_up unit axis. \param aspect width over height, > 0.
+/// \param model_up direction. \param aspect width over height, > 0.
 /// \param margin empty border as a fraction of the shorter side, in [0, 0.5).
 /// \throw InvalidInput if an argument is out of range, or if the eye is so near or inside that the
 ///        points cannot all lie in front of it.

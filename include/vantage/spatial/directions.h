@@ -34,6 +34,7 @@ DirectionSet direction_set(ViewSphereBase base, int level);
 
 /// New vertex of edge ab between triangles abc and bad: 3/8 a + 3/8 b + 1/8 c + 1/8 d, projected
 /// to the unit sphere. Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987.
+/// \throw InvalidInput if one of them is zero or not finite
 Vec3 loop_edge_direction(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 }  // namespace vantage

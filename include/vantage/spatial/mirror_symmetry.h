@@ -33,8 +33,8 @@ struct MirrorPlane {
 /// \complexity O(|F| log |F|).
 std::vector<MirrorPlane> mirror_planes(const TriMesh& surface, const MirrorOptions& options = {});
 
-/// The direction and its images under all products of the reflections: itself first, none within
-/// `apart_rad` of an earlier one.
+/// The direction, as a unit vector, and its images under all products of the reflections: itself first, none within
+/// `apart_rad` of an earlier one. \throw InvalidInput if the direction is zero or not finite
 std::vector<Vec3> mirror_images(const Vec3& direction, std::span<const MirrorPlane> planes,
                                 double apart_rad);
 

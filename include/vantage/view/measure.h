@@ -42,7 +42,8 @@ struct SilhouetteDisc {
   double diameter = 1.0;         ///< Model units, on that plane; > 0.
 };
 
-/// \pre sphere.diameter > 0. An eye at the very centre looks along −z.
+/// \pre sphere.diameter > 0. An eye at the very centre looks along −z. \throw InvalidInput if a parallel
+/// view has no direction
 SilhouetteDisc silhouette_disc(const Sphere& sphere, const Viewpoint& eye);
 
 /// A point of the picture in disc diameters, the disc's centre at the origin.
@@ -272,7 +273,8 @@ class ViewMeasurer {
   [[nodiscard]] MeasureValues values(std::span<const Viewpoint> eyes,
                                      const RunContext& run = {}) const;
 
-  /// The same of directions, through the subject's camera.
+  /// The same of directions of any length, through the subject's camera. \throw InvalidInput for one that
+  /// is zero or not finite, as all that take directions; Cancelled
   [[nodiscard]] MeasureValues values(std::span<const Vec3> directions,
                                      const RunContext& run = {}) const;
 

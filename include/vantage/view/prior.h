@@ -56,7 +56,8 @@ struct ViewPrior {
   UprightPrior upright{};     ///< Its constants.
   std::vector<PriorLobe> lobes{};  ///< The factor is also 1 + Σ weight · exp((cos θ − 1) / width²).
 
-  /// The factor for a unit direction from the model's centre to the eye; > 0 and finite.
+  /// The factor for a direction from the model's centre to the eye; > 0 and finite. \throw InvalidInput
+  /// if it is zero or not finite, unless the prior is uniform
   [[nodiscard]] double factor(const UprightFrame& frame, const Vec3& direction) const;
 };
 

@@ -24,16 +24,22 @@ enum class Weight {
   Area,  ///< Its integral over the surface seen, over the whole area: not a matter of tessellation.
 };
 
-/// The camera that scores: its eye stands at centre + R · direction.
+/// The camera that scores: its eye stands at distance R from the centre, towards a direction.
+///
+/// Of a direction, here and wherever the library takes one, only where it points counts, not its length.
+/// \throw InvalidInput where one is zero or not finite.
 struct ScoringCamera {
   Sphere sphere{};                                  ///< Enclosing sphere of the model; D > 0.
   Projection projection = Projection::Perspective;  ///< Perspective unless asked.
   double fov_y_deg = 30.0;                          ///< Vertical field of view, in (0, 180).
   std::optional<double> distance_factor{};          ///< R over D/2, > 1; unset: 1 / sin(fov/2).
 
-  [[nodiscard]] double distance() const;                           ///< R in model units.
-  [[nodiscard]] Vec3 eye(const Vec3& direction) const;             ///< Position of the eye.
-  [[nodiscard]] Viewpoint viewpoint(const Vec3& direction) const;  ///< What visibility is asked.
+  [[nodiscard]] double distance() const;  ///< R in model units.
+  /// Position of the eye. \throw InvalidInput
+  [[nodiscard]] Vec3 eye(const Vec3& direction) const;
+  /// What visibility is asked. \throw InvalidInput
+  [[nodiscard]] Viewpoint viewpoint(const Vec3& direction) const;
+  /// viewpoint() of each. \throw InvalidInput
   [[nodiscard]] std::vector<Viewpoint> viewpoints(std::span<const Vec3> directions) const;
 };
 
@@ -56,10 +62,11 @@ class ViewScorer {
   /// The score seen from any viewpoint. \throw Cancelled
   [[nodiscard]] double score_from(const Viewpoint& eye, const RunContext& run = {}) const;
 
-  /// score(vp) = Σ of the significance of the visible vertices, or its integral. \throw Cancelled
+  /// score(vp) = Σ of the significance of the visible vertices, or its integral.
+  /// \throw InvalidInput if the direction points nowhere, as all that take one do; Cancelled
   [[nodiscard]] double score(const Vec3& direction, const RunContext& run = {}) const;
 
-  /// score() of each direction, in parallel over directions. \throw Cancelled
+  /// score() of each direction, in parallel over directions. \throw InvalidInput, Cancelled
   [[nodiscard]] std::vector<double> score_all(std::span<const Vec3> directions,
                                               const RunContext& run = {}) const;
 

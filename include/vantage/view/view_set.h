@@ -75,7 +75,7 @@ struct ViewSet {
 /// directions that halve from 2° to 0.1°, as long as that sees strictly more and the separation
 /// holds. Significance that neither a candidate nor `first` sees does not count in gains and coverage.
 /// The table of candidates takes |V|/8 bytes each; where that passes 1 GiB, `level` is lowered.
-/// \param significance |V| finite values ≥ 0. \param first unit vector.
+/// \param significance |V| finite values ≥ 0. \param first direction.
 /// \throw InvalidInput, Cancelled
 ViewSet select_views(const VertexVisibility& visibility, std::span<const double> significance,
                      const ScoringCamera& camera, const Vec3& first,
@@ -83,7 +83,7 @@ ViewSet select_views(const VertexVisibility& visibility, std::span<const double>
 
 /// Gains, coverage and bounds of views that were chosen in some other way, in their order, up to the
 /// one that reaches `options.coverage` if that is set. Of the rest uses only `options.level`.
-/// \param directions at least one unit vector. \throw InvalidInput, Cancelled
+/// \param directions at least one, of any length but 0. \throw InvalidInput, Cancelled
 ViewSet measure_views(const VertexVisibility& visibility, std::span<const double> significance,
                       const ScoringCamera& camera, std::span<const Vec3> directions,
                       const ViewSetOptions& options = {}, const RunContext& run = {});
@@ -108,7 +108,7 @@ struct Tour {
 
 /// The shortest round over the directions. Up to 12: exact (Held & Karp, 1962). More: nearest
 /// neighbour from index 0, then 2-opt moves and moves of runs of up to three until neither shortens
-/// it. \param directions at least one unit vector. \throw InvalidInput, Cancelled
+/// it. \param directions at least one, of any length but 0. \throw InvalidInput, Cancelled
 Tour shortest_tour(std::span<const Vec3> directions, const RunContext& run = {});
 
 /// Where the eye stands at one moment.
@@ -121,7 +121,7 @@ struct TourPose {
 /// after the last comes the first again. Arcs are great circles; opposite stops are joined along the
 /// equator. The picture stays upright except near the poles, where upright turns ever faster: there
 /// the roll is smoothed over the way, so that it never jumps, also for a path straight over a pole.
-/// \param stops in order, at least two different unit vectors. \param model_up unit axis.
+/// \param stops directions in order, at least two different ones. \param model_up direction.
 /// \param count at least 3. \throw InvalidInput
 std::vector<TourPose> tour_path(std::span<const Vec3> stops, const Vec3& model_up,
                                 std::size_t count);
@@ -162,7 +162,8 @@ class VisibleSets {
 };
 
 /// What the scoring camera sees from each direction, in parallel over directions.
-/// \param vertex_count |V| of the surface that `visibility` was made of. \throw Cancelled
+/// \param vertex_count |V| of the surface that `visibility` was made of.
+/// \throw InvalidInput if that is not the number, or a direction points nowhere; Cancelled
 VisibleSets visible_sets(const VertexVisibility& visibility, const ScoringCamera& camera,
                          std::span<const Vec3> directions, std::size_t vertex_count,
                          const RunContext& run = {});
@@ -171,7 +172,7 @@ VisibleSets visible_sets(const VertexVisibility& visibility, const ScoringCamera
 /// several views together see of it what the one does that sees most.
 inline constexpr std::size_t kBitsAFace = 8;
 
-/// The same with kBitsAFace bits a face in place of one a vertex. \throw Cancelled
+/// The same with kBitsAFace bits a face in place of one a vertex. \throw InvalidInput, Cancelled
 VisibleSets visible_sets(const FaceVisibility& faces, const ScoringCamera& camera,
                          std::span<const Vec3> directions, const RunContext& run = {});
 

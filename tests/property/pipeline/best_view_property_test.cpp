@@ -24,7 +24,7 @@ TEST(FindViews, OfFewVerticesFindsWhatTheDenseSearchFinds) {
     options.objective = Objective::Significance;
     options.certify = true;
     const ViewReport report =
-        find_views(analyse_shape(model_of(shape), options), UpAxis::Y, options);
+        find_views(analyse_shape(model_of(shape), options), ModelFrame(UpAxis::Y), options);
     ASSERT_TRUE(report.dense_gap.has_value());
     EXPECT_GE(report.dense_gap->best_ratio, 0.999) << shape.positions.size();
     EXPECT_LE(report.dense_gap->worst_above, 0.005) << shape.positions.size();

@@ -25,6 +25,8 @@
 namespace vantage::test {
 namespace {
 
+const ModelFrame kYUp;
+
 ViewOptions quick_search() {
   ViewOptions options = unrefined();
   options.search.strategy = SearchStrategy::Exhaustive;
@@ -66,7 +68,7 @@ class ReportOfAY : public testing::Test {
   static const std::pair<ShapeAnalysis, ViewReport>& known() {
     static const auto found = [] {
       const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), quick_search());
-      return std::pair(shape, find_views(shape, UpAxis::Y, quick_search()));
+      return std::pair(shape, find_views(shape, kYUp, quick_search()));
     }();
     return found;
   }
@@ -92,7 +94,7 @@ TEST_F(ReportOfAY, ScoresAreSumsOverTheVisibleVertices) {
 
 TEST_F(ReportOfAY, UnderAPriorTheObjectiveIsScoreTimesPriorAndTheRestIsPure) {
   options_.prior = upright_prior();
-  const ViewReport found = find_views(shape_, UpAxis::Y, options_);
+  const ViewReport found = find_views(shape_, kYUp, options_);
   const UprightFrame frame = upright_frame(Vec3::UnitY());
   EXPECT_EQ(found.best.objective,
             found.best.score * upright_prior().factor(frame, found.best.direction));
@@ -106,7 +108,7 @@ TEST_F(ReportOfAY, UnderAPriorTheObjectiveIsScoreTimesPriorAndTheRestIsPure) {
 
 TEST_F(ReportOfAY, WhatPeopleTakeIsComparedOnlyForTheBestView) {
   options_.objective = Objective::People;
-  const ViewReport found = find_views(shape_, UpAxis::Y, options_);
+  const ViewReport found = find_views(shape_, kYUp, options_);
   const Preference preference(shape_, {}, options_, found.total);
   EXPECT_EQ(found.best.objective, preference(found.best.direction, found.best.score));
   for (const SearchStep& step : found.best_search.trace) {
@@ -124,7 +126,7 @@ TEST_F(ReportOfAY, SearchesOfPapersKnowNothingButTheScore) {
   options_.objective = Objective::People;
   for (const SearchStrategy strategy : {SearchStrategy::Rapid, SearchStrategy::Gradient}) {
     options_.search.strategy = strategy;
-    const ViewReport found = find_views(shape_, UpAxis::Y, options_);
+    const ViewReport found = find_views(shape_, kYUp, options_);
     EXPECT_EQ(found.best.objective, found.best.score);
   }
 }
@@ -193,7 +195,7 @@ TEST(FindViews, ByAreasNeedNoMap) {
   ViewOptions options = quick_search();
   options.method = "projected-area";
   const ShapeAnalysis shape = prepare_surface(model_of(box(1.0, 2.0, 3.0, 1)));
-  EXPECT_GT(find_views(shape, UpAxis::Y, options).best.score, 0.0);
+  EXPECT_GT(find_views(shape, kYUp, options).best.score, 0.0);
 }
 
 TEST(DrawPicture, NamesTheStepThatIsMissing) {
@@ -219,12 +221,12 @@ TEST(FindViews, CertifiesTheViewThatIsReportedWhereTiesWereSettled) {
       R"({"vantage_prior": 1, "lobes": [{"direction": [0, 0, -1], "weight": 0.006, "width_deg": 60}]})",
       "back.json");
   const ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 6)), options);
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const ViewReport report = find_views(shape, kYUp, options);
   const UprightFrame frame = upright_frame(Vec3::UnitY());
   ASSERT_GT(frame.front.dot(report.best.direction), 0.1);
   options.search.strategy = SearchStrategy::Dense;
   double highest = 0.0;
-  for (const SearchStep& step : find_views(shape, UpAxis::Y, options).best_search.trace) {
+  for (const SearchStep& step : find_views(shape, kYUp, options).best_search.trace) {
     highest = larger(highest, step.score * options.prior.factor(frame, step.direction));
   }
   ASSERT_TRUE(report.dense_gap.has_value());
@@ -316,8 +318,7 @@ TEST(FindViews, SaysWhyASkeletonHasMoreCyclesThanTheGenus) {
   const ShapeAnalysis shape = analyse_shape(model_of(ring_of_octahedra()), options);
   EXPECT_EQ(shape.check.genus, 0U);
   EXPECT_EQ(cycle_count(shape.skeleton.graph), 1U);
-  EXPECT_EQ(count_of("sheets touch at 4 vertices", find_views(shape, UpAxis::Y, options).warnings),
-            1U);
+  EXPECT_EQ(count_of("sheets touch at 4 vertices", find_views(shape, kYUp, options).warnings), 1U);
 }
 
 /// A box with this share of its significance inside the bottom, the rest everywhere.
@@ -344,19 +345,19 @@ bool says(const std::vector<std::string>& warnings, std::string_view text) {
 TEST(FindViews, FollowsTheHabitUnlessItShowsNextToNothing) {
   ViewOptions options = quick_search();
   options.objective = Objective::People;
-  const ViewReport usual = find_views(with_significance_below(0.2), UpAxis::Y, options);
+  const ViewReport usual = find_views(with_significance_below(0.2), kYUp, options);
   EXPECT_GT(usual.best.direction.y(), 0.2);
   EXPECT_FALSE(says(usual.reliability_warnings, "of what another shows"));
-  const ViewReport little = find_views(with_significance_below(0.5), UpAxis::Y, options);
+  const ViewReport little = find_views(with_significance_below(0.5), kYUp, options);
   EXPECT_GT(little.best.direction.y(), 0.0);
   EXPECT_TRUE(says(little.reliability_warnings, "of what another shows"));
-  const ViewReport hardly_any = find_views(with_significance_below(0.8), UpAxis::Y, options);
+  const ViewReport hardly_any = find_views(with_significance_below(0.8), kYUp, options);
   EXPECT_LT(hardly_any.best.direction.y(), 0.0);
   EXPECT_GT(hardly_any.score_of_attainable.value_or(0.0), 0.9);
 }
 
 TEST(FindViews, SaysWhereMostIsHiddenFromEverywhere) {
-  const ViewReport open = find_views(analysed_box(), UpAxis::Y, quick_search());
+  const ViewReport open = find_views(analysed_box(), kYUp, quick_search());
   EXPECT_FALSE(says(open.warnings, "no view shows more than"));
   const TriMesh boxes = together(box(3.0, 3.0, 3.0, 2), box(1.0, 1.0, 1.0, 2), Vec3::Ones());
   ShapeAnalysis nested = analyse_shape(model_of(boxes), quick_search());
@@ -364,13 +365,13 @@ TEST(FindViews, SaysWhereMostIsHiddenFromEverywhere) {
     nested.significance[v] =
         (nested.surface.positions[v].array() - 1.5).abs().maxCoeff() < 1.0 ? 1.0 : 0.01;
   }
-  const ViewReport hidden = find_views(nested, UpAxis::Y, quick_search());
+  const ViewReport hidden = find_views(nested, kYUp, quick_search());
   EXPECT_TRUE(says(hidden.warnings, "no view shows more than"));
 }
 
 TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   const ViewOptions options = quick_search();
-  const ViewReport report = find_views(without_significance(analysed_box()), UpAxis::Y, options);
+  const ViewReport report = find_views(without_significance(analysed_box()), kYUp, options);
   const Vec3 first =
       direction_set(ViewSphereBase::Icosahedron, options.search.subdivisions).directions.front();
   EXPECT_EQ(report.best.direction, first);
@@ -383,8 +384,8 @@ TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
 TEST(FindViews, OfAMapThatIsZeroTakesWhatPeopleChooseAndTheFirstForTheWorst) {
   ViewOptions options = quick_search();
   options.objective = Objective::People;
-  const Vec3 with_map = find_views(analysed_box(), UpAxis::Y, options).best.direction;
-  const ViewReport report = find_views(without_significance(analysed_box()), UpAxis::Y, options);
+  const Vec3 with_map = find_views(analysed_box(), kYUp, options).best.direction;
+  const ViewReport report = find_views(without_significance(analysed_box()), kYUp, options);
   const Vec3 first =
       direction_set(ViewSphereBase::Icosahedron, options.search.subdivisions).directions.front();
   EXPECT_EQ(report.worst.direction, first);
@@ -492,8 +493,8 @@ TEST(FindViews, SeesAsMuchOfAnInsideOutModel) {
   const TriMesh mesh = y_of_tubes(0.25, 20);
   const ShapeAnalysis right = analyse_shape(model_of(mesh), options);
   const ShapeAnalysis turned = analyse_shape(model_of(inside_out(mesh)), options);
-  EXPECT_NEAR(find_views(right, UpAxis::Y, options).best.score_fraction,
-              find_views(turned, UpAxis::Y, options).best.score_fraction, 1e-9);
+  EXPECT_NEAR(find_views(right, kYUp, options).best.score_fraction,
+              find_views(turned, kYUp, options).best.score_fraction, 1e-9);
 }
 
 }  // namespace

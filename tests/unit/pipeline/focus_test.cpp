@@ -140,7 +140,7 @@ TEST(FocusOn, TheBestViewIsNotBlockedByTheOtherBox) {
   const VertexVisibility visibility(shape.surface, shape.sides);
   const ViewScorer scorer(visibility, shape.significance, scoring_camera(shape, options));
   EXPECT_LT(scorer.score(-Vec3::UnitX()), scorer.score(Vec3::UnitX()));
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
   EXPECT_GE(report.best.score, scorer.score(Vec3::UnitX()));
 }
 
@@ -247,7 +247,7 @@ TEST(FocusOn, AnObjectThatNoViewShowsIsDoubted) {
     ViewOptions options = focus_on(name);
     options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
     const ShapeAnalysis shape = analyse_shape(model, options);
-    const ViewReport report = find_views(shape, UpAxis::Y, options);
+    const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
     const bool is_hidden = options.focus == "core";
     EXPECT_EQ(report.best.score == 0.0, is_hidden);
     EXPECT_EQ(blank_view_warning(shape, report.best, options).empty(), !is_hidden);

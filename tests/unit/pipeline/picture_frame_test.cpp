@@ -141,7 +141,7 @@ TEST(TourCameras, LeaveTheMarginOfTheShorterSideInAnyAspect) {
     for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
       options.projection = projection;
       const ShapeAnalysis shape = analyse_shape(model_of(mesh), options);
-      const ViewReport report = find_views(shape, UpAxis::Y, options);
+      const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
       for (const double aspect : {0.25, 1.0, 4.0}) {
         EXPECT_NEAR(least_border(shape, report, aspect, kMargin), kMargin, 1e-9) << aspect;
       }

@@ -113,8 +113,8 @@ class SplitModel : public DataPackTest<testing::TestWithParam<const char*>> {
     const Splitter splitter(shape);
     ASSERT_TRUE(check_mesh(splitter.result().surface).closed);
     ASSERT_GT(splitter.result().surface.triangles.size(), 2 * shape.surface.triangles.size());
-    whole = find_views(shape, UpAxis::Y, options);
-    half = find_views(splitter.result(), UpAxis::Y, options);
+    whole = find_views(shape, ModelFrame(UpAxis::Y), options);
+    half = find_views(splitter.result(), ModelFrame(UpAxis::Y), options);
     const FaceVisibility faces(splitter.result().surface, splitter.result().sides);
     const ViewScorer scorer(faces, splitter.result().significance, half.camera);
     there = scorer.score(whole.best.direction);

@@ -41,7 +41,7 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
   const ViewOptions options = quick_check();
   // As many vertices in both: what counts is how large a part is, not how finely it is cut.
   const ShapeAnalysis shape = analyse_shape(model_of(two_spheres(0.4)), options);
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
   const auto doubts_where_left = [&](std::size_t vertex, double shrinkage) {
     ShapeAnalysis other = shape;
     other.views.reset();  // so that only the contraction is looked at
@@ -63,7 +63,7 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesAreNoneWhereTheyOnlyHideTheFocus) {
   options.focus = "1";
   ShapeAnalysis shape = analyse_shape(model_of(two_spheres(0.4)), options);
   shape.views.reset();
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
   const auto is_doubted = [&](std::size_t vertex) {
     ShapeAnalysis other = shape;
     other.history.components[other.history.component_of_vertex[vertex]].shrinkage = 0.5;
@@ -85,7 +85,7 @@ TEST(DoubtsAbout, ASkeletonPartlyOutsideIsTheSkeletonsUntilTheViewsHangOnIt) {
                                                       {0.1, true, true, false},
                                                       {0.3, false, true, true}}) {
     shape.skeleton.outside_share = share;
-    const ViewReport report = find_views(shape, UpAxis::Y, options);
+    const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
     EXPECT_EQ(is_said(report.warnings), note) << share;
     EXPECT_EQ(is_said(skeleton_warnings(shape)), skeletons) << share;
     EXPECT_EQ(is_said(report.reliability_warnings), views) << share;
@@ -135,7 +135,7 @@ TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
   const ViewOptions options = quick_check();
   ShapeAnalysis shape = analyse_shape(model_of(sphere(2)), options);
   shape.views.reset();
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
   // A chain of squares: each adds three edges and two nodes, and so a cycle.
   CurveGraph& graph = shape.skeleton.graph;
   graph = {.nodes = {Vec3::Zero(), Vec3::UnitX()}, .edges = {{0, 1}}};

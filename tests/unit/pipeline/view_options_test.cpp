@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -183,6 +184,18 @@ TEST(UpAxis, IsZForStlAndYOtherwise) {
   }
   EXPECT_EQ(up_name(UpAxis::MinusZ), "-z");
   EXPECT_EQ(up_vector(UpAxis::MinusZ), Vec3(0.0, 0.0, -1.0));
+}
+
+TEST(ModelFrame, IsMadeOfTwoAxesAtRightAngles) {
+  static_assert(!std::is_convertible_v<UpAxis, ModelFrame>);
+  EXPECT_EQ(ModelFrame(UpAxis::Z).front, UpAxis::MinusY);
+  EXPECT_THROW(ModelFrame(UpAxis::Y, UpAxis::Y), InvalidInput);
+  EXPECT_THROW(ModelFrame(UpAxis::MinusX, UpAxis::X), InvalidInput);
+  EXPECT_THROW(ModelFrame{UpAxis::Any}, InvalidInput);
+  EXPECT_THROW(ModelFrame(UpAxis::Y, UpAxis::Any), InvalidInput);
+  ModelFrame changed;
+  changed.front = UpAxis::MinusY;
+  EXPECT_THROW(upright_frame(changed), InvalidInput);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ int coloured_pixels(const Image& figure, int panel) {
 TEST(PaperFigures, ShowEachLevelAndEndWithTheMap) {
   const ViewOptions options = small_and_quick();
   const ShapeAnalysis& shape = analysed_y();
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
   const std::vector<Figure> figures = paper_figures(shape, report, options);
   ASSERT_EQ(figures.size(), 8U);
   const auto panels = [](const Image& image) { return (image.width - 8) / (48 + 8); };
@@ -114,7 +114,7 @@ TEST(PaperFigures, DrawTheSearchAsLinesAndAsPixels) {
   options.search.strategy = SearchStrategy::Rapid;
   const ShapeAnalysis& shape = analysed_y();
   for (const Figure& figure :
-       paper_figures(shape, find_views(shape, UpAxis::Y, options), options)) {
+       paper_figures(shape, find_views(shape, ModelFrame(UpAxis::Y), options), options)) {
     EXPECT_EQ(figure.svg.empty(), figure.name != "figure-4-search") << figure.name;
     if (!figure.svg.empty()) {  // at least a panel a level of the sphere, and the closer look
       EXPECT_GE(figure.image.width, 2 * 36);
@@ -237,7 +237,7 @@ TEST(PaperFigures, OfACloudShowItsPointsAsTheyContractAndNoSaliency) {
   const ShapeAnalysis shape = analyse_shape(model, options);
   ASSERT_TRUE(shape.cloud.has_value());
   const std::vector<Figure> figures =
-      paper_figures(shape, find_views(shape, UpAxis::Y, options), options);
+      paper_figures(shape, find_views(shape, ModelFrame(UpAxis::Y), options), options);
   ASSERT_EQ(figures.size(), 8U);
   const auto panels = [](const Image& image) { return (image.width - 8) / (48 + 8); };
   const int levels = std::min<int>(6, static_cast<int>(shape.history.level_count()) + 1);
@@ -255,7 +255,7 @@ TEST(PaperFigures, OfACloudShowItsPointsAsTheyContractAndNoSaliency) {
 TEST(PaperFigures, OfACloudShowInFigure3ThePointsThatNoTriangleJoins) {
   const ViewOptions options = small_and_quick();
   const ShapeAnalysis& shape = analysed_ball_and_pole();
-  ViewReport report = find_views(shape, UpAxis::Y, options);
+  ViewReport report = find_views(shape, ModelFrame(UpAxis::Y), options);
   // From y = 2.25 to 3.75, where there is nothing else.
   report.best.picture = {.projection = Projection::Orthographic,
                          .eye = Vec3(0.0, 3.0, 10.0),

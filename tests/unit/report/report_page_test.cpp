@@ -34,7 +34,7 @@ struct Spiky {
     for (std::size_t v = 0; v < shape.significance.size(); ++v) {
       shape.significance[v] = v % 53 == 0 ? 1.0 : 0.0;
     }
-    report = find_views(shape, UpAxis::Y, options);
+    report = find_views(shape, ModelFrame(UpAxis::Y), options);
   }
 
   [[nodiscard]] json page() const { return page_data(model, shape, report, options); }

@@ -15,7 +15,8 @@ using json = OrderedJson;
 std::string report_text(const Model& model, const StageSeconds* seconds = nullptr) {
   ViewOptions options = preset_options(Preset::Paper);
   const ShapeAnalysis shape = analyse_shape(model, options);
-  return view_json(model, shape, find_views(shape, UpAxis::Y, options), options, seconds);
+  return view_json(model, shape, find_views(shape, ModelFrame(UpAxis::Y), options), options,
+                   seconds);
 }
 
 TEST(ViewJson, HasNoNumberThatIsNotFinite) {
@@ -32,8 +33,8 @@ TEST(ViewJson, GivesNoShareOfATotalThatAMeasureDoesNotHave) {
   const Model model = model_of(box(1.0, 2.0, 3.0, 2));
   const ViewOptions options{.method = "viewpoint-entropy"};
   const ShapeAnalysis shape = analyse_shape(model, options);
-  const json report =
-      parsed_json(view_json(model, shape, find_views(shape, UpAxis::Y, options), options, nullptr));
+  const json report = parsed_json(
+      view_json(model, shape, find_views(shape, ModelFrame(UpAxis::Y), options), options, nullptr));
   EXPECT_TRUE(report["best"]["score_fraction"].is_null());
   ASSERT_FALSE(report["twins"].empty());
   for (const json& twin : report["twins"]) {
