@@ -4,7 +4,9 @@
 
     PYTHONPATH=build/release/python scripts/write_python_stubs.py > python/vantage/functions.pyi
 """
-from vantage import _core
+import inspect
+
+from vantage import _core, functions
 
 HEAD = '''# SPDX-License-Identifier: MIT
 # Written by scripts/write_python_stubs.py from the table of options; do not edit.
@@ -111,8 +113,9 @@ def stub(name, own, groups, result):
     lines = [f"def {name}(", "    model: _Subject,", "    F: Optional[npt.ArrayLike] = None,", "    *,"]
     lines += [f"    {keyword}," for keyword in own]
     lines += ["    progress: _Progress = None,", "    threads: Optional[int] = 0,"]
+    takes = inspect.signature(getattr(functions, name)).parameters
     lines += [f"    {row['name']}: {annotation(row)} = None,"
-              for row in _core.options() if row["group"] in groups]
+              for row in _core.options() if row["group"] in groups and row["name"] in takes]
     return "\n".join([*lines, f") -> {result}: ..."]) + "\n"
 
 

@@ -33,7 +33,15 @@ bool switch_of(const py::object& value, const std::string& name) {
   return static_cast<bool>(caster);
 }
 
+bool is_switch(const py::handle& value) {
+  return PyBool_Check(value.ptr()) ||
+         py::isinstance(value, py::module_::import("numpy").attr("bool_"));
+}
+
 double number_of(const py::object& value, const std::string& name) {
+  if (is_switch(value)) {
+    throw py::type_error(name + " must be a number");
+  }
   try {
     return value.cast<double>();
   } catch (const py::cast_error&) {
@@ -43,6 +51,9 @@ double number_of(const py::object& value, const std::string& name) {
 
 std::int64_t whole_number_of(const py::object& value, const std::string& name, std::int64_t low,
                              std::int64_t high) {
+  if (is_switch(value)) {
+    throw py::type_error(name + " must be a whole number");
+  }
   const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   if (!number) {
     refuse_type(name + " must be a whole number");

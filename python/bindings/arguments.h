@@ -22,6 +22,8 @@ namespace py = pybind11;
 std::string word_of(const py::object& value, const std::string& name);
 /// True or False, NumPy's too; numbers are none. \throw py::type_error
 bool switch_of(const py::object& value, const std::string& name);
+/// Whether it is True or False, of Python or NumPy: where a number is asked for, these are none.
+bool is_switch(const py::handle& value);
 /// \throw py::type_error
 double number_of(const py::object& value, const std::string& name);
 /// \throw py::type_error, InvalidInput if it is less than `low` or more than `high`

@@ -121,6 +121,15 @@ std::vector<Triangle> triangles_of(const py::array& array, std::size_t vertex_co
                  : read_triangles<std::uint32_t>(array, vertex_count);
 }
 
+/// A share of full colour in 256 steps. \throw InvalidInput if it is none
+std::uint8_t byte_of(double share, py::ssize_t row) {
+  if (!(share >= 0.0 && share <= 1.0)) {
+    throw InvalidInput("colours must be between 0 and 1 where they are floats, in row " +
+                       std::to_string(row));
+  }
+  return static_cast<std::uint8_t>(std::lround(255.0 * share));
+}
+
 }  // namespace
 
 py::array owned_flags(std::vector<std::uint8_t>&& flags, const Shape& shape) {
@@ -209,13 +218,21 @@ TriMesh mesh_of(const py::object& V, const py::object& F) {
 
 std::vector<std::array<std::uint8_t, 3>> colours_of(const py::object& value) {
   const py::array array = array_from(value, "colours");
-  if (array.dtype().kind() != 'u' || array.itemsize() != 1) {
-    throw py::type_error("colours must be uint8, not " +
+  const bool is_of_shares = array.dtype().kind() == 'f';
+  if (!is_of_shares && (array.dtype().kind() != 'u' || array.itemsize() != 1)) {
+    throw py::type_error("colours must be uint8, or floats from 0 to 1, not " +
                          py::str(array.dtype()).cast<std::string>());
   }
   need_rows_of_three(array, "colours");
   std::vector<std::array<std::uint8_t, 3>> colours;
   colours.reserve(static_cast<std::size_t>(array.shape(0)));
+  if (is_of_shares) {
+    const py::array shares = array.attr("astype")("float64");
+    for_each_row<double>(shares, [&](py::ssize_t i, const std::array<double, 3>& row) {
+      colours.push_back({byte_of(row[0], i), byte_of(row[1], i), byte_of(row[2], i)});
+    });
+    return colours;
+  }
   for_each_row<std::uint8_t>(
       array, [&](py::ssize_t, const std::array<std::uint8_t, 3>& row) { colours.push_back(row); });
   return colours;

@@ -91,8 +91,8 @@ py::dict report_dict(const Outcome& outcome) {
   }
   add_set(result, report.set);
   result["warnings"] =
-      texts_of(warnings_of(*outcome.analysis->model, outcome.analysis->shape, report));
-  result["doubts"] = texts_of(report.reliability_warnings);
+      messages_of(warnings_of(*outcome.analysis->model, outcome.analysis->shape, report));
+  result["doubts"] = messages_of(report.reliability_warnings);
   result["json"] = text_of(outcome.json);
   return result;
 }

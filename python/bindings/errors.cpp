@@ -2,6 +2,7 @@
 #include "errors.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -20,36 +21,15 @@ namespace {
 
 namespace py = pybind11;
 
-/// A message of the library with its options as Python has them: "--max-faces" as max_faces.
-std::string without_flags(std::string text) {
-  // Arguments of functions that are no options.
-  std::vector<std::string> names{"max-faces", "method",     "view", "show",
-                                 "camera",    "directions", "eyes", "sphere"};
-  for (const Option& option : option_table()) {
-    names.push_back(option.name);
-  }
-  for (const std::string& name : names) {
-    std::string keyword = name;
-    std::replace(keyword.begin(), keyword.end(), '-', '_');
-    const std::string flag = " --" + name;
-    for (std::size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + 1)) {
-      const std::size_t end = at + flag.size();
-      if (end == text.size() ||
-          std::string_view(" ,;.:").find(text[end]) != std::string_view::npos) {
-        text.replace(at + 1, flag.size() - 1, keyword);
-      }
-    }
-  }
-  return text;
-}
-
 void raise(const char* name, const Error& error) {
   const py::object type = py::module_::import("vantage.errors").attr(name);
   PyErr_SetObject(type.ptr(), text_of(without_flags(error.what())).ptr());
 }
 
 void raise_io(const IoError& error) {
-  const py::object type = py::module_::import("vantage.errors").attr("IoError");
+  const bool is_missing = error.error_number() == ENOENT;
+  const py::object type =
+      py::module_::import("vantage.errors").attr(is_missing ? "MissingFileError" : "IoError");
   const py::object raised = type(error.error_number(), text_of(error.what()));
   PyErr_SetObject(type.ptr(), raised.ptr());
 }
@@ -73,6 +53,49 @@ void translate(std::exception_ptr thrown) {
 }
 
 }  // namespace
+
+std::string without_flags(std::string text) {
+  // Arguments of functions that are no options.
+  std::vector<std::string> names{"max-faces", "method",     "view", "show",
+                                 "camera",    "directions", "eyes", "sphere"};
+  for (const Option& option : option_table()) {
+    names.push_back(option.name);
+  }
+  const auto is_one_of = [](char c, std::string_view those) {
+    return those.find(c) != std::string_view::npos;
+  };
+  for (const std::string& name : names) {
+    std::string keyword = name;
+    std::replace(keyword.begin(), keyword.end(), '-', '_');
+    const std::string flag = "--" + name;
+    for (std::size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + 1)) {
+      const std::size_t end = at + flag.size();
+      if ((at == 0 || is_one_of(text[at - 1], " (\"'")) &&
+          (end == text.size() || is_one_of(text[end], " ,;.:)\"'"))) {
+        text.replace(at, flag.size(), keyword);
+      }
+    }
+  }
+  return text;
+}
+
+std::string with_keywords(std::string text) {
+  for (const Option& option : option_table()) {
+    std::string keyword = option.name;
+    std::replace(keyword.begin(), keyword.end(), '-', '_');
+    for (const std::string& word : option.words) {
+      const std::string flag = "--" + option.name + " " + word;
+      for (std::size_t at = text.find(flag); at != std::string::npos;
+           at = text.find(flag, at + 1)) {
+        const std::size_t end = at + flag.size();
+        if (end == text.size() || text[end] == ' ' || text[end] == ',' || text[end] == ';') {
+          text.replace(at, flag.size(), keyword + "=\"" + word + "\"");
+        }
+      }
+    }
+  }
+  return without_flags(std::move(text));
+}
 
 void translate_errors() {
   py::register_exception_translator(&translate);

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <pybind11/stl.h>
 
@@ -24,6 +25,20 @@ std::string keyword_of(const Option& option) {
   return name;
 }
 
+/// Words that mean something here. Any up axis would turn the model away from where its arrays are.
+std::vector<std::string> words_of(const Option& option) {
+  std::vector<std::string> words = option.words;
+  if (option.name == "up") {
+    std::erase(words, "any");
+  }
+  return words;
+}
+
+/// The option's help without the words that are left out.
+std::string help_of(const Option& option) {
+  return option.name == "up" ? option.help.substr(0, option.help.find("; any:")) : option.help;
+}
+
 /// As Python writes the type.
 std::string type_of(const Option& option) {
   switch (option.kind) {
@@ -35,7 +50,7 @@ std::string type_of(const Option& option) {
       return "bool";
     case OptionKind::Choice: {
       std::string words;
-      for (const std::string& word : option.words) {
+      for (const std::string& word : words_of(option)) {
         words.append(words.empty() ? "\"" : ", \"").append(word).append("\"");
       }
       return "Literal[" + words + "]";
@@ -60,7 +75,7 @@ std::string type_of(const Option& option) {
 
 /// Digits of a whole number; True is none. \throw py::cast_error
 std::string whole_text(const py::handle& given) {
-  if (PyBool_Check(given.ptr()) || PyIndex_Check(given.ptr()) == 0) {
+  if (is_switch(given) || PyIndex_Check(given.ptr()) == 0) {
     throw py::cast_error();
   }
   return py::str(given).cast<std::string>();
@@ -74,7 +89,7 @@ std::string text_from(const Option& option, const py::object& given) {
   if (py::isinstance<py::str>(given)) {
     return given.cast<std::string>();
   }
-  if (option.form == TextForm::Share) {
+  if (option.form == TextForm::Share && !is_switch(given)) {
     return py::repr(py::cast(given.cast<double>())).cast<std::string>();
   }
   if (option.form == TextForm::Plain) {
@@ -115,6 +130,10 @@ OptionValue whole_from(const Option& option, const py::object& given) {
 
 /// \throw py::cast_error, py::type_error if it is of another type
 OptionValue value_from(const Option& option, const py::object& given) {
+  const bool is_number = option.kind == OptionKind::Number || option.kind == OptionKind::Integer;
+  if (is_number && is_switch(given)) {
+    throw py::cast_error();
+  }
   switch (option.kind) {
     case OptionKind::Number:
       return given.cast<double>();
@@ -200,6 +219,9 @@ void apply(Settings& settings, const py::dict& keywords, bool is_analysed, const
   }
   try {
     check_together(settings.view, [&](std::string_view name) { return changed.contains(name); });
+    if (settings.view.search.strategy != SearchStrategy::Gradient) {
+      refuse_idle({{{"seed"}, "goes with search gradient only"}}, changed);
+    }
     settings.view.view_set = checked_view_set(settings.view);
     if (idle) {
       refuse_idle(idle(settings), changed);
@@ -249,8 +271,8 @@ py::list option_rows() {
     row["flag"] = flag_of(option);
     row["group"] = option.group;
     row["type"] = type_of(option);
-    row["help"] = option.help;
-    row["choices"] = option.words;
+    row["help"] = help_of(option);
+    row["choices"] = words_of(option);
     row["low"] = is_number ? py::object(py::float_(option.low)) : py::none();
     row["high"] = is_number ? py::object(py::float_(option.high)) : py::none();
     row["default"] = ours[row["name"]];

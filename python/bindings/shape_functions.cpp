@@ -114,7 +114,7 @@ py::dict skeleton(const py::object& model, const py::object& F, const py::object
   result["vertex_node"] = owned_array(std::move(parts.vertex_node));
   result["quality"] =
       parts.quality ? py::object(quality_dict(*parts.quality, diameter)) : py::none();
-  result["warnings"] = texts_of(parts.warnings);
+  result["warnings"] = messages_of(parts.warnings);
   return result;
 }
 
@@ -153,7 +153,7 @@ py::dict kssm(const py::object& model, const py::object& F, const py::object& le
   result["of_vertex"] = owned_array(std::move(parts.of_vertex));
   result["thickness"] = owned_array(std::move(parts.thickness));
   result["level_factor"] = owned_array(std::move(parts.level_factor));
-  result["warnings"] = texts_of(parts.warnings);
+  result["warnings"] = messages_of(parts.warnings);
   return result;
 }
 

@@ -32,6 +32,9 @@ ModelHandle model_of_arrays(const py::object& V, const py::object& F, const py::
   model->mesh = mesh_of(V, F);
   model->double_precision = true;
   model->polygons = model->mesh.triangles.size();
+  if (!F.is_none() && model->mesh.triangles.empty()) {
+    model->notes.emplace_back("F holds no faces, so V is taken for a point cloud");
+  }
   if (!colours.is_none()) {
     model->vertex_colours = colours_of(colours);
     if (model->vertex_colours.size() != model->mesh.positions.size()) {
@@ -90,46 +93,70 @@ py::object refuse_pickle(const py::object& self, const py::args& /*protocol*/) {
 }
 
 void define_model(py::module_& module) {
-  py::class_<ModelHandle>(module, "Model")
+  py::class_<ModelHandle>(
+      module, "Model",
+      "A model as load() read it, or as arrays describe it. Never changes; its arrays "
+      "are read-only views.\n\n"
+      "Model(V, F=None, *, name=\"arrays\", colours=None): V is (n, 3) vertices, F (m, 3) "
+      "integers; without faces it is a point cloud. colours is (n, 3) of the vertices, "
+      "uint8 or floats from 0 to 1, sRGB.\n"
+      "Raises InvalidInput, TypeError. Cannot be pickled: pickle its arrays.")
       .def("__reduce__", &refuse_pickle)
       .def("__reduce_ex__", &refuse_pickle)
       .def(py::init(&model_of_arrays), py::arg("V"), py::arg("F") = py::none(), py::kw_only(),
-           py::arg("name") = "arrays", py::arg("colours") = py::none())
+           py::arg("name") = "arrays", py::arg("colours") = py::none(),
+           "Takes V, (n, 3) vertices, and F, (m, 3) integers, or None of a point cloud.")
       .def("__repr__",
            [](const ModelHandle& h) {
              return "Model(" + py::repr(text_of(h.model->name)).cast<std::string>() + ", " +
                     sizes_of(*h.model) + ")";
            })
-      .def_property_readonly("name", [](const ModelHandle& h) { return text_of(h.model->name); })
-      .def_property_readonly("format", [](const ModelHandle& h) { return format_name(*h.model); })
+      .def_property_readonly(
+          "name", [](const ModelHandle& h) { return text_of(h.model->name); },
+          "str: the file's name without its ending, or the name that was given.")
+      .def_property_readonly(
+          "format", [](const ModelHandle& h) { return format_name(*h.model); },
+          "str: the format of the file; of arrays the one that their habits are of.")
       .def_property_readonly(
           "vertices",
           [](const ModelHandle& h) {
             const auto& points = h.model->mesh.positions;
             return shared_array<double>(points.data(), {extent(points.size()), 3}, h.model);
-          })
+          },
+          "(n, 3) float64: positions in the units of the file.")
       .def_property_readonly(
           "faces",
           [](const ModelHandle& h) {
             const auto& faces = h.model->mesh.triangles;
             return shared_array<std::uint32_t>(faces.data(), {extent(faces.size()), 3}, h.model);
-          })
+          },
+          "(m, 3) uint32: triangles, counter-clockwise from outside; (0, 3) of a point cloud.")
       .def_property_readonly(
           "colours",
           [](const ModelHandle& h) {
             const auto& colours = h.model->vertex_colours;
             return shared_array<std::uint8_t>(colours.data(), {extent(colours.size()), 3}, h.model);
-          })
-      .def_property_readonly("parts", &parts_of)
-      .def_property_readonly("notes",
-                             [](const ModelHandle& h) { return texts_of(h.model->notes); });
+          },
+          "(n, 3) uint8: sRGB of the vertices; (0, 3) where there are none.")
+      .def_property_readonly("parts", &parts_of,
+                             "tuple of (name, first face, faces): what the file calls objects; "
+                             "empty where it names none.")
+      .def_property_readonly(
+          "notes", [](const ModelHandle& h) { return messages_of(h.model->notes); },
+          "tuple of str: what the reader left out, mended or guessed, one sentence each.");
 }
 
 void define_analysis(py::module_& module) {
   const auto shape_of = [](const AnalysisHandle& h) -> const ShapeAnalysis& {
     return h.analysis->shape;
   };
-  py::class_<AnalysisHandle>(module, "Analysis")
+  py::class_<AnalysisHandle>(
+      module, "Analysis",
+      "A model with its contraction, skeleton and significance map, as analyse() makes it. Never "
+      "changes.\n\n"
+      "Every function takes it in place of a model; options of the method and the map stay those "
+      "that "
+      "analyse() was given. Cannot be pickled.")
       .def("__reduce__", &refuse_pickle)
       .def("__reduce_ex__", &refuse_pickle)
       .def("__repr__",
@@ -138,20 +165,27 @@ void define_analysis(py::module_& module) {
              return "Analysis of " + py::repr(text_of(model.name)).cast<std::string>() + ", " +
                     sizes_of(model);
            })
-      .def_property_readonly("model",
-                             [](const AnalysisHandle& h) { return ModelHandle{h.analysis->model}; })
-      .def_property_readonly("closed",
-                             [=](const AnalysisHandle& h) { return shape_of(h).check.closed; })
-      .def_property_readonly("components",
-                             [=](const AnalysisHandle& h) { return shape_of(h).check.components; })
-      .def_property_readonly("genus",
-                             [=](const AnalysisHandle& h) { return shape_of(h).check.genus; })
       .def_property_readonly(
-          "centre", [=](const AnalysisHandle& h) { return array_of(shape_of(h).sphere.centre); })
-      .def_property_readonly("diameter",
-                             [=](const AnalysisHandle& h) { return shape_of(h).sphere.diameter; })
+          "model", [](const AnalysisHandle& h) { return ModelHandle{h.analysis->model}; },
+          "Model: what was analysed.")
       .def_property_readonly(
-          "warnings", [=](const AnalysisHandle& h) { return texts_of(shape_of(h).warnings); });
+          "closed", [=](const AnalysisHandle& h) { return shape_of(h).check.closed; },
+          "bool: the surface has no border, once vertices at one place are joined.")
+      .def_property_readonly(
+          "components", [=](const AnalysisHandle& h) { return shape_of(h).check.components; },
+          "int: pieces of the surface that nothing joins.")
+      .def_property_readonly(
+          "genus", [=](const AnalysisHandle& h) { return shape_of(h).check.genus; },
+          "int: handles of all pieces together; None unless the surface is closed.")
+      .def_property_readonly(
+          "centre", [=](const AnalysisHandle& h) { return array_of(shape_of(h).sphere.centre); },
+          "(3,) float64: centre of the smallest enclosing sphere, which directions start from.")
+      .def_property_readonly(
+          "diameter", [=](const AnalysisHandle& h) { return shape_of(h).sphere.diameter; },
+          "float: of that sphere, in the units of the model.")
+      .def_property_readonly(
+          "warnings", [=](const AnalysisHandle& h) { return messages_of(shape_of(h).warnings); },
+          "tuple of str: every repair and doubt, one sentence each.");
 }
 
 /// The same analysis with the map that these settings sum.

@@ -34,11 +34,17 @@ inline std::string path_text(const pybind11::object& path) {
   return text;
 }
 
-/// text_of() each of a list.
-inline pybind11::tuple texts_of(const std::vector<std::string>& list) {
+/// A message of the library with its options as Python has them: "--max-faces" as max_faces.
+std::string without_flags(std::string text);
+
+/// A warning or a note likewise: "--up z shows it" as up="z" shows it.
+std::string with_keywords(std::string text);
+
+/// text_of() each of a list of warnings or notes, their options as Python has them.
+inline pybind11::tuple messages_of(const std::vector<std::string>& list) {
   pybind11::list texts;
-  for (const std::string& bytes : list) {
-    texts.append(text_of(bytes));
+  for (const std::string& message : list) {
+    texts.append(text_of(with_keywords(message)));
   }
   return pybind11::tuple(texts);
 }

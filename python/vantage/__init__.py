@@ -9,7 +9,8 @@ docs/python.md is the cookbook.
 """
 
 from ._core import __version__
-from .errors import Error, FormatError, InvalidInput, IoError, SolverError
+from .errors import (Error, FormatError, InvalidInput, IoError, MissingFileError,
+                     SolverError)
 from .functions import (Analysis, Model, analyse, best_view, colour_map, defaults, directions, kssm,
                         library_versions, load, measures, options, render, score, skeleton,
                         vertex_map, visible_vertices)
@@ -18,7 +19,7 @@ from .results import (BestView, Camera, DenseGap, DirectionSet, KssmMap, Measure
 
 __all__ = [
     "Analysis", "BestView", "Camera", "DenseGap", "DirectionSet", "Error", "FormatError",
-    "InvalidInput", "IoError", "KssmMap", "Measure", "Model", "Skeleton", "SolverError", "Twin",
+    "InvalidInput", "IoError", "KssmMap", "Measure", "MissingFileError", "Model", "Skeleton", "SolverError", "Twin",
     "View", "__version__", "analyse", "best_view", "colour_map", "defaults", "directions", "kssm",
     "library_versions", "load", "measures", "options", "render", "score", "skeleton", "vertex_map",
     "visible_vertices",

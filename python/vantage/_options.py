@@ -13,8 +13,8 @@ from . import _core
 TABLE: List[Mapping[str, Any]] = _core.options()
 
 
-def _in_groups(groups: "tuple[str, ...]") -> List[Mapping[str, Any]]:
-    return [row for row in TABLE if row["group"] in groups]
+def _in_groups(groups: "tuple[str, ...]", but: "tuple[str, ...]") -> List[Mapping[str, Any]]:
+    return [row for row in TABLE if row["group"] in groups and row["name"] not in but]
 
 
 def _line(row: Mapping[str, Any]) -> str:
@@ -27,9 +27,9 @@ def _line(row: Mapping[str, Any]) -> str:
     return textwrap.fill(text, 96, initial_indent="    ", subsequent_indent="        ")
 
 
-def takes(*groups: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Gives a function the keywords of these groups in place of its **options."""
-    rows = _in_groups(groups)
+def takes(*groups: str, but: "tuple[str, ...]" = ()) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Gives a function the keywords of these groups in place of its **options, `but` for these."""
+    rows = _in_groups(groups, but)
     names = {row["name"] for row in rows}
 
     def give(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -31,5 +31,9 @@ class IoError(Error, OSError):
         return self.message
 
 
+class MissingFileError(IoError, FileNotFoundError):
+    """There is no file of that name."""
+
+
 class SolverError(Error, ArithmeticError):
     """A linear system could not be solved by any means."""

@@ -16,6 +16,7 @@ from .results import (BestView, Bytes, DirectionSet, Flags, Floats, KssmMap, Mea
 Model = _core.Model
 Analysis = _core.Analysis
 _NOTEBOOK_SIZE = (480, 360)
+_OF_FRAMES = ("up", "front")  # what is seen, and a number a vertex, do not hang on them
 
 
 def load(path: Any, *, progress: Any = None, threads: Optional[int] = 0,
@@ -26,7 +27,7 @@ def load(path: Any, *, progress: Any = None, threads: Optional[int] = 0,
     what fits into memory.
     Returns a Model: name, format, vertices (n, 3) float64, faces (m, 3) uint32, colours (n, 3) or
     (0, 3) uint8, parts (name, first face, faces) and notes. Its arrays are read-only views.
-    Raises IoError, FormatError.
+    Raises IoError, if there is no such file MissingFileError, a FileNotFoundError; FormatError.
     """
     return _core.load(path, progress, threads, max_faces)
 
@@ -36,8 +37,8 @@ def analyse(model: Any, F: Any = None, *, progress: Any = None, threads: Optiona
             **options: Any) -> Analysis:
     """Contracts a model, finds its skeleton and its significance map, once for many questions.
 
-    model: a path, (n, 3) vertices, a Model. F: (m, 3) integers with vertices; None: a point cloud.
-    progress: function of (stage, fraction in [0, 1]). threads: at most this many; 0: all cores.
+    model: a path, (n, 3) vertices, a Model. F: (m, 3) integers with vertices; None, or of no rows: a
+    point cloud. progress: function of (stage, fraction in [0, 1]). threads: at most this many; 0: all cores.
     Returns an Analysis, which every other function takes as its model; the options below then stay
     as they were given here. It has model, closed, components, genus, centre, diameter, warnings.
     Raises InvalidInput, IoError, FormatError, TypeError.
@@ -52,7 +53,8 @@ def best_view(model: Any, F: Any = None, *, method: Optional[str] = "kssm", prog
     """Finds the view that tells most about a shape, and the one that tells least.
 
     model: a path, (n, 3) vertices, a Model, an Analysis; a mesh or point cloud of trimesh, Open3D,
-    PyVista or VTK; a tuple (V, F). F: (m, 3) integers with vertices; None: a point cloud.
+    PyVista or VTK; a tuple (V, F). F: (m, 3) integers with vertices; None, or of no rows, which is
+    noted: a point cloud.
     method: a measure of a view, see measures().
     progress: function of (stage, fraction in [0, 1]). threads: at most this many; 0: all cores.
     Returns a BestView; the same for any number of threads.
@@ -93,7 +95,7 @@ def kssm(model: Any, F: Any = None, *, levels: Optional[bool] = False, progress:
     return KssmMap(**_core.kssm(model, F, levels, options, progress, threads))
 
 
-@takes("method", "map", "camera", "saliency")
+@takes("method", "map", "camera", "saliency", but=_OF_FRAMES)
 def vertex_map(model: Any, F: Any = None, *, method: Optional[str] = "kssm", progress: Any = None,
                threads: Optional[int] = 0, **options: Any) -> Floats:
     """One number a vertex: (n,) float64.
@@ -105,7 +107,7 @@ def vertex_map(model: Any, F: Any = None, *, method: Optional[str] = "kssm", pro
     return _core.vertex_map(model, F, method, options, progress, threads)
 
 
-@takes("camera")
+@takes("camera", but=_OF_FRAMES)
 def visible_vertices(model: Any, F: Any = None, *, eyes: Any = None, directions: Any = None,
                      sphere: Any = None, progress: Any = None, threads: Optional[int] = 0,
                      **options: Any) -> Flags:
@@ -132,7 +134,7 @@ def _is_single(eyes: Any, directions: Any) -> bool:
     return given is not None and np.ndim(given) == 1
 
 
-@takes("method", "map", "camera", "saliency")
+@takes("method", "map", "camera", "saliency", but=_OF_FRAMES)
 def score(model: Any, F: Any = None, *, directions: Any = None, eyes: Any = None,
           sphere: Any = None, method: "Union[str, Sequence[str], None]" = "kssm",
           view_set: Optional[int] = 3, progress: Any = None, threads: Optional[int] = 0, **options: Any) -> Any:
@@ -164,7 +166,8 @@ def render(model: Any, F: Any = None, *, direction: Any = None, camera: Any = No
     model: a path, (n, 3) vertices, a Model, an Analysis. F: (m, 3) integers with vertices.
     One of direction: (3,) from the centre to the eye; camera: a Camera, such as best.camera; view:
     "best" or "worst", which is searched for; none of them: the best view. show: "plain", "kssm" or
-    "skeleton". colours: (n, 3) uint8 sRGB of the vertices, for a plain picture; see colour_map().
+    "skeleton". colours: (n, 3) sRGB of the vertices, uint8 or floats from 0 to 1, for a plain picture;
+    see colour_map().
     progress: function of (stage, fraction in [0, 1]). threads: at most this many; 0: all cores.
     Raises InvalidInput, IoError, FormatError, TypeError.
     """

@@ -125,7 +125,7 @@ def best_view(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
+    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     search: Optional[Literal["rapid", "exhaustive", "global", "dense", "gradient"]] = None,
     base: Optional[Literal["cube", "icosahedron"]] = None,
@@ -234,8 +234,6 @@ def vertex_map(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
-    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Floats: ...
 def visible_vertices(
     model: _Subject,
@@ -249,8 +247,6 @@ def visible_vertices(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
-    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Flags: ...
 def score(
     model: _Subject,
@@ -291,8 +287,6 @@ def score(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
-    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Any: ...
 def render(
     model: _Subject,
@@ -330,7 +324,7 @@ def render(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
+    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     search: Optional[Literal["rapid", "exhaustive", "global", "dense", "gradient"]] = None,
     base: Optional[Literal["cube", "icosahedron"]] = None,

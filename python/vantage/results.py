@@ -295,7 +295,8 @@ class Skeleton(_Record):
     edges: Indices
     """(e, 2) node indices, the lower first, rows sorted."""
     radius: Floats
-    """(k,) mean distance of a node to the vertices it stands for."""
+    """(k,) mean distance of a node to the vertices it stands for: of the surface that was contracted,
+    which has more of them than the input where that is coarse."""
     vertex_node: Integers
     """(n,) node of each vertex; −1 for vertices without faces."""
     branches: Tuple[Indices, ...]

@@ -2,6 +2,7 @@
 """Arrays in and out: types, orders, shapes, and who owns the memory."""
 
 import gc
+import math
 
 import numpy as np
 import pytest
@@ -133,6 +134,17 @@ def test_no_faces_at_all_are_the_same_as_none():
     assert np.array_equal(vantage.Model(V, np.empty((0, 3), int)).faces, np.empty((0, 3)))
 
 
+def test_no_faces_at_all_are_noted():
+    note = "F holds no faces, so V is taken for a point cloud"
+    points, _ = torus(40, 20)
+    empty = np.empty((0, 3), int)
+    assert vantage.Model(points, empty).notes == (note,)
+    assert not vantage.Model(points).notes and not vantage.Model(V, F).notes
+    result = vantage.best_view(points, empty, search="exhaustive", subdivisions=0)
+    assert note in result.warnings
+    assert np.array_equal(vantage.kssm(points, empty).of_vertex, vantage.kssm(points).of_vertex)
+
+
 @pytest.mark.parametrize("faces", [[[]], np.empty((0, 4), int), np.empty((2, 0), int), np.empty((0, 3, 3), int)])
 def test_no_faces_of_another_shape_are_refused(faces):
     with pytest.raises(vantage.InvalidInput, match=r"F must have the shape \(n, 3\), not"):
@@ -227,8 +239,27 @@ def test_colours_of_vertices_are_drawn():
         vantage.render(V, F, direction=(0, 0, 1), colours=red[1:], size=32)
     with pytest.raises(vantage.InvalidInput, match="colours has 0 rows"):
         vantage.render(V, F, direction=(0, 0, 1), colours=red[:0], size=32)
-    with pytest.raises(TypeError, match="uint8"):
-        vantage.render(V, F, direction=(0, 0, 1), colours=red.astype(float), size=32)
+    with pytest.raises(TypeError, match="colours must be uint8, or floats from 0 to 1, not int64"):
+        vantage.render(V, F, direction=(0, 0, 1), colours=red.astype(np.int64), size=32)
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.float32, np.float16, ">f8"])
+def test_colours_may_be_shares(kind):
+    shares = np.tile(np.array([[1, 0.5, 0], [0.25, 0, 1]], kind), (48, 1))
+    expected = np.tile(np.array([[255, 128, 0], [64, 0, 255]], np.uint8), (48, 1))
+    assert np.array_equal(vantage.Model(V, F, colours=shares).colours, expected)
+    assert np.array_equal(vantage.Model(V, F, colours=shares.tolist()).colours, expected)
+    pictures = [vantage.render(V, F, direction=(0, 0, 1), colours=colours, size=16, quality="draft")
+                for colours in (shares, expected)]
+    assert np.array_equal(*pictures)
+
+
+@pytest.mark.parametrize("share", [255.0, -0.01, math.nan, math.inf])
+def test_shares_of_colour_beyond_0_and_1_are_refused(share):
+    colours = np.full((96, 3), 0.5)
+    colours[7, 1] = share
+    with pytest.raises(vantage.InvalidInput, match="colours must be between 0 and 1 where they are floats, in row 7"):
+        vantage.Model(V, F, colours=colours)
 
 
 def test_colours_of_a_cloud_are_drawn_on_points_that_no_triangle_joins():

@@ -32,6 +32,7 @@ COMMANDS = {  # what offers which groups of the table
     "score": (vantage.score, {"method", "map", "saliency", "camera"}),
     "render": (vantage.render, {"method", "map", "camera", "search", "size", "look"}),
 }
+NO_KEYWORDS = {"map": {"up", "front"}, "score": {"up", "front"}}  # flags that only "any" up makes a difference of
 TEXTS = {"focus": "0", "epsilon": "2%", "prior": "none", "size": (40, 30), "background": "#102030"}
 OF_PROGRAM = {("view", "size"): "auto", ("render", "size"): "800x600"}  # other defaults
 WITH = {"base": {"search": "exhaustive"}, "subdivisions": {"search": "exhaustive"}, "epsilon": {"search": "rapid"}, "starts": {"search": "gradient"}, "seed": {"search": "gradient"}, "refine": {"views": 2},
@@ -75,7 +76,8 @@ def test_flags_are_the_rows_of_the_table(program, command):
         if row["type"] == "bool":
             assert kind == "", name
             continue
-        assert {"int": "N", "float": "X"}.get(row["type"], "|".join(row["choices"]) or "TEXT") == kind, name
+        words = "|".join(row["choices"]).replace("auto", "any|auto") if name == "up" else "|".join(row["choices"])
+        assert {"int": "N", "float": "X"}.get(row["type"], words or "TEXT") == kind, name
         assert (row["low"], row["high"]) == (low and float(low), high and float(high)), name
         if row["default"] is None:
             assert default is None, name
@@ -90,8 +92,9 @@ def test_keywords_are_the_rows_of_the_table(command):
     function, groups = COMMANDS[command]
     keywords = inspect.signature(function).parameters
     for row in ROWS:
-        assert (row["name"] in keywords) == (row["group"] in groups), row["name"]
-        if row["group"] in groups:
+        is_keyword = row["group"] in groups and row["name"] not in NO_KEYWORDS.get(command, ())
+        assert (row["name"] in keywords) == is_keyword, row["name"]
+        if is_keyword:
             assert row["help"].split()[0] in function.__doc__, row["name"]
 
 
@@ -178,7 +181,8 @@ def test_values_out_of_range_are_refused_with_a_sentence(keywords, message):
 
 
 @pytest.mark.parametrize("keywords", [{"fov": "wide"}, {"max_steps": 2.5}, {"prune": 1},
-                                      {"weight": 3}, {"weigth": "area"}])
+                                      {"weight": 3}, {"weigth": "area"}, {"fov": True}, {"fov": np.bool_(True)},
+                                      {"max_steps": True}, {"epsilon": True}, {"threads": True}])
 def test_values_of_another_type_are_refused(keywords):
     with pytest.raises(TypeError, match=next(iter(keywords))):
         vantage.best_view(V, F, **keywords)
@@ -197,6 +201,7 @@ def test_a_prior_may_be_a_file(tmp_path, cat):
     ({"search": "global", "epsilon": 1}, "option epsilon goes with search rapid only"),
     ({"subdivisions": 5}, "option subdivisions goes with search rapid and exhaustive only"),
     ({"starts": 3}, "option starts goes with search gradient only"),
+    ({"seed": 3}, "option seed goes with search gradient only"),
     ({"projection": "orthographic", "fov": 60}, "option fov goes with projection perspective only"),
     ({"objective": "significance", "prior": "upright"}, "option prior says what is maximised"),
     ({"level_agreement": 0.5, "fit": False}, "option level_agreement compares two fitted curves"),
@@ -245,6 +250,12 @@ def test_a_switch_takes_the_booleans_of_numpy():
     assert result_with(certify=np.bool_(True)) == result_with(certify=True)
 
 
+def test_up_any_is_in_no_documentation():
+    row = next(row for row in ROWS if row["name"] == "up")
+    assert "any" not in row["choices"] and "any" not in row["type"] and "any" not in row["help"]
+    assert row["help"].endswith("y otherwise") and "any" not in vantage.best_view.__doc__.partition("up:")[2].partition("\n    front:")[0]
+
+
 def test_up_any_is_refused_of_an_analysis_too():
     with pytest.raises(vantage.InvalidInput, match="option up: any"):
         vantage.best_view(vantage.analyse(V, F), up="any")
@@ -264,6 +275,11 @@ def test_up_any_is_refused_of_an_analysis_too():
     (lambda: vantage.render(V, F, focus=2.5), "option focus must be str | int"),
     (lambda: vantage.best_view(V, F, epsilon=[2]), "option epsilon must be float | str"),
     (lambda: vantage.directions(1.0), "level must be a whole number"),
+    (lambda: vantage.directions(True), "level must be a whole number"),
+    (lambda: vantage.best_view(V, F, fov=True), "option fov must be float"),
+    (lambda: vantage.score(V, F, sphere=0, up="z"), "score() got an unexpected keyword argument 'up'"),
+    (lambda: vantage.vertex_map(V, F, front="x"), "vertex_map() got an unexpected keyword argument 'front'"),
+    (lambda: vantage.visible_vertices(V, F, sphere=0, up="z"), "visible_vertices() got an unexpected keyword argument 'up'"),
     (lambda: vantage.directions(1, 2), "base must be str"),
     (lambda: vantage.Model(V, F, name=3), "name must be str"),
     (lambda: vantage.defaults(3), 'option preset must be Literal["default", "paper"]'),
@@ -299,7 +315,15 @@ def test_warnings_are_those_of_view_json(tmp_path):
                     + "".join("3 %d %d %d\n" % tuple(f) for f in F))
     result = vantage.best_view(path)
     assert any("its rows hold" in note for note in result.warnings)
-    assert list(result.warnings) == json.loads(result.json)["warnings"]
+    of_program = json.loads(result.json)["warnings"]
+    assert any("; --up z takes it" in text for text in of_program)
+    assert list(result.warnings) == [text.replace("--up z", 'up="z"') for text in of_program]
+
+
+def test_warnings_name_keywords_that_can_be_given(cat):
+    result = vantage.best_view(cat)
+    assert any('front="z" shows that side' in text for text in result.warnings), result.warnings
+    assert not any("--" in text for text in result.warnings)
 
 
 def test_a_set_of_directions_is_taken_as_its_directions():

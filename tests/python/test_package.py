@@ -67,6 +67,16 @@ def test_stubs_agree_with_the_package(tmp_path):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.parametrize("thing", [vantage, *(getattr(vantage, name) for name in vantage.__all__ if name != "__version__")],
+                         ids=lambda thing: thing.__name__)
+def test_all_that_is_public_says_what_it_is(thing):
+    assert len(thing.__doc__) > 15
+    if thing in (vantage.Model, vantage.Analysis):
+        members = [member for name, member in vars(thing).items() if not name.startswith("_")]
+        assert len(members) >= 7
+        assert all(len(member.__doc__) > 10 for member in members), [m for m in members if not m.__doc__]
+
+
 def make_wheel(folder):
     """The path of a new wheel."""
     folder.mkdir()

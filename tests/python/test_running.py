@@ -214,7 +214,7 @@ def test_an_analysis_tells_what_the_shape_is():
 
 
 @pytest.mark.parametrize("name, content, kind, also", [
-    ("missing.ply", None, vantage.IoError, OSError),
+    ("missing.ply", None, vantage.IoError, FileNotFoundError),
     ("broken.off", b"OFF\n3 1 0\n0 0 0\n", vantage.FormatError, ValueError),
     ("model.fbx", b"Kaydara", vantage.FormatError, ValueError),
     ("empty.obj", b"", vantage.Error, Exception),
@@ -247,7 +247,15 @@ def test_what_nothing_can_be_computed_with_is_refused(scale, shift):
 def test_a_missing_file_has_its_errno(tmp_path):
     with pytest.raises(OSError) as caught:
         vantage.load(tmp_path / "missing.ply")
-    assert caught.value.errno == 2
+    assert caught.value.errno == 2 and type(caught.value) is vantage.MissingFileError
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert type(again) is vantage.MissingFileError and (again.errno, str(again)) == (2, str(caught.value))
+
+
+def test_a_file_that_is_there_but_cannot_be_read_is_not_missing(tmp_path):
+    with pytest.raises(vantage.IoError) as caught:
+        vantage.load(tmp_path)
+    assert not isinstance(caught.value, FileNotFoundError)
 
 
 def test_names_that_are_no_utf8_are_read(tmp_path):
