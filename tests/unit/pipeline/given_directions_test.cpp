@@ -63,7 +63,7 @@ void expect_only_where_it_points(const std::function<Vec3(const Vec3&)>& result)
   }
 }
 
-Vec3 one(double value) {
+Vec3 along_x(double value) {
   return {value, 0.0, 0.0};
 }
 
@@ -79,9 +79,9 @@ TEST_F(GivenDirections, PlaceTheEyeOfTheScoringCameraAtItsDistance) {
 
 TEST_F(GivenDirections, AreScoredFromThere) {
   const ViewScorer scorer(visibility_, shape_.significance, camera_);
-  expect_only_where_it_points([&](const Vec3& d) { return one(scorer.score(d)); });
+  expect_only_where_it_points([&](const Vec3& d) { return along_x(scorer.score(d)); });
   expect_only_where_it_points([&](const Vec3& d) {
-    return one(scorer.score_all(std::vector<Vec3>{Vec3::UnitZ(), d}).back());
+    return along_x(scorer.score_all(std::vector<Vec3>{Vec3::UnitZ(), d}).back());
   });
 }
 
@@ -89,13 +89,13 @@ TEST_F(GivenDirections, AreMeasuredFromThere) {
   ViewMeasurer measurer(measure_subject(shape_, options_), {find_measure("projected-area")}, 0);
   using Views = std::vector<Vec3>;
   expect_only_where_it_points(
-      [&](const Vec3& d) { return one(measurer.values(Views{d}).front().front()); });
+      [&](const Vec3& d) { return along_x(measurer.values(Views{d}).front().front()); });
   expect_only_where_it_points(
-      [&](const Vec3& d) { return one(measurer.values_of(0, Views{d}).front()); });
+      [&](const Vec3& d) { return along_x(measurer.values_of(0, Views{d}).front()); });
   expect_only_where_it_points(
-      [&](const Vec3& d) { return one(measurer.kept_values_of(0, Views{d}).front()); });
+      [&](const Vec3& d) { return along_x(measurer.kept_values_of(0, Views{d}).front()); });
   expect_only_where_it_points(
-      [&](const Vec3& d) { return one(measurer.estimates_of(0, Views{d}).front()); });
+      [&](const Vec3& d) { return along_x(measurer.estimates_of(0, Views{d}).front()); });
 }
 
 TEST_F(GivenDirections, AreDescribedFromThere) {
@@ -106,7 +106,7 @@ TEST_F(GivenDirections, AreDescribedFromThere) {
   expect_only_where_it_points([&](const Vec3& d) { return described(d).eye; });
   expect_only_where_it_points([&](const Vec3& d) { return described(d).up; });
   expect_only_where_it_points([&](const Vec3& d) { return described(d).picture.eye; });
-  expect_only_where_it_points([&](const Vec3& d) { return one(described(d).score); });
+  expect_only_where_it_points([&](const Vec3& d) { return along_x(described(d).score); });
 }
 
 TEST_F(GivenDirections, FramePicturesFromThere) {
@@ -140,14 +140,14 @@ TEST_F(GivenDirections, BeginASetOfViewsOrAreOne) {
     for (std::size_t v = 0; v < count; ++v) {
       seen += sets.sees(0, v) ? 1.0 : 0.0;
     }
-    return one(seen);
+    return along_x(seen);
   });
 }
 
 TEST_F(GivenDirections, AreStopsOfATour) {
   using Views = std::vector<Vec3>;
   expect_only_where_it_points([&](const Vec3& d) {
-    return one(shortest_tour(Views{Vec3::UnitZ(), d}).length_rad);
+    return along_x(shortest_tour(Views{Vec3::UnitZ(), d}).length_rad);
   });
   expect_only_where_it_points([&](const Vec3& d) {
     return tour_path(Views{Vec3::UnitZ(), d}, Vec3::UnitY(), 5)[1].direction;
@@ -183,13 +183,14 @@ TEST_F(GivenDirections, OfATourGoRoundInPicturesOfSomeSize) {
 
 TEST(Directions, OfOtherFunctionsCountByWhereTheyPointToo) {
   const UprightFrame frame = upright_frame(Vec3::UnitY());
-  expect_only_where_it_points([&](const Vec3& d) { return one(upright_prior().factor(frame, d)); });
+  expect_only_where_it_points(
+      [&](const Vec3& d) { return along_x(upright_prior().factor(frame, d)); });
   expect_only_where_it_points([&](const Vec3& d) { return upright_frame(d).front; });
   const Vec3 across = kUnit.unitOrthogonal();
   expect_only_where_it_points([&](const Vec3& d) { return upright_frame(d, across).side; });
   expect_only_where_it_points([&](const Vec3& d) { return upright_frame(across, d).side; });
   expect_only_where_it_points(
-      [&](const Vec3& d) { return one(static_cast<double>(axis_nearest(d))); });
+      [&](const Vec3& d) { return along_x(static_cast<double>(axis_nearest(d))); });
   const std::array planes{MirrorPlane{}};
   expect_only_where_it_points([&](const Vec3& d) { return mirror_images(d, planes, 0.1).back(); });
   expect_only_where_it_points([&](const Vec3& d) {
