@@ -18,9 +18,23 @@ namespace {
 constexpr int kRounds = 6;
 /// An end is led on by so many pieces at most.
 constexpr double kFarthestEnd = 4.0;
-constexpr std::size_t kMostPieces = 1000;  // of an edge
+constexpr double kMostPieces = 1000.0;  // of an edge
+/// All edges have so many pieces at most, beside one for each: as many as the first, or the second for
+/// each point. Needles as long as the model would have thousands of pieces a vertex [ours].
+constexpr double kAlwaysAllowed = 100'000.0;
+constexpr double kMostAPoint = 4.0;
 /// A node of more candidates for its points is a hub, at which a tree pays.
 constexpr std::size_t kHub = 32;
+
+/// The length of pieces that are no shorter than `piece` and not too many.
+double longest_piece(const CurveGraph& graph, double piece, std::size_t points) {
+  double pieces = 0.0;
+  for (const auto& [a, b] : graph.edges) {
+    pieces += std::min((graph.nodes[b] - graph.nodes[a]).norm() / piece, kMostPieces);
+  }
+  const double most = std::max(kAlwaysAllowed, kMostAPoint * static_cast<double>(points));
+  return pieces > most ? piece * (pieces / most) : piece;
+}
 
 /// A graph cut into pieces, and which of its nodes may stand for a point of a node of the first.
 class FinerCurve {
@@ -33,7 +47,7 @@ class FinerCurve {
     for (const auto& [a, b] : graph.edges) {
       const double length = (graph.nodes[b] - graph.nodes[a]).norm();
       const auto pieces =
-          static_cast<std::size_t>(std::clamp(std::ceil(length / piece), 1.0, double{kMostPieces}));
+          static_cast<std::size_t>(std::clamp(std::ceil(length / piece), 1.0, kMostPieces));
       std::uint32_t previous = a;
       for (std::size_t k = 1; k < pieces; ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(pieces);
@@ -117,7 +131,7 @@ class FinerCurve {
 CurveGraph fit_curve(const CurveGraph& graph, std::span<const Vec3> contracted,
                      std::span<const double> weights, std::span<const std::uint32_t> node_of_vertex,
                      double piece) {
-  FinerCurve finer(graph, piece);
+  FinerCurve finer(graph, longest_piece(graph, piece, contracted.size()));
   std::vector<Vec3>& nodes = finer.curve().nodes;
   const auto each_point = [&](const auto& visit) {
     for (std::size_t v = 0; v < contracted.size(); ++v) {

@@ -15,7 +15,7 @@ namespace vantage {
 /// topology kept. Nodes of the graph keep their numbers; those inside edges follow.
 /// \param contracted |V| points. \param weights one per point, ≥ 0.
 /// \param node_of_vertex node of each point; others than nodes of the graph are left out.
-/// \param piece longest piece of an edge, > 0.
+/// \param piece longest piece of an edge, > 0; longer where that makes more than 100 000 and 4 a point.
 CurveGraph fit_curve(const CurveGraph& graph, std::span<const Vec3> contracted,
                      std::span<const double> weights, std::span<const std::uint32_t> node_of_vertex,
                      double piece);

@@ -81,5 +81,23 @@ TEST(FitCurve, LeavesOutPointsOfNoNode) {
   EXPECT_LE((fine.nodes[0] - Vec3(1, 0, 0)).norm(), 1e-12);
 }
 
+/// As the graph of a model of many needles, each of them as long as the model.
+TEST(FitCurve, MakesFewPiecesWhereFewPointsSpanLongEdges) {
+  CurveGraph needles;
+  std::vector<std::uint32_t> node_of_point;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    needles.nodes.emplace_back(0.0, i, 0.0);
+    needles.nodes.emplace_back(1000.0, i, 0.0);
+    needles.edges.push_back({2 * i, 2 * i + 1});
+    node_of_point.push_back(2 * i);
+    node_of_point.push_back(2 * i + 1);
+  }
+  const CurveGraph fine =
+      fit_curve(needles, needles.nodes, std::vector<double>(6000, 1.0), node_of_point, 1.0);
+  EXPECT_LT(fine.nodes.size(), 110'000U);
+  EXPECT_GT(fine.nodes.size(), 90'000U);
+  EXPECT_EQ(component_count(fine), 3000U);
+}
+
 }  // namespace
 }  // namespace vantage
