@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/place_order.h"
 
 namespace vantage {
@@ -28,10 +29,7 @@ struct Pair {
 class MergingGraph {
  public:
   MergingGraph(const CurveGraph& graph, std::vector<double> weight)
-      : position_(graph.nodes), weight_(std::move(weight)), parent_(graph.nodes.size()) {
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) {
-      parent_[i] = i;
-    }
+      : position_(graph.nodes), weight_(std::move(weight)), merged_(graph.nodes.size()) {
     const IndexLists lists = node_neighbours(graph);
     for (std::size_t i = 0; i < lists.size(); ++i) {
       neighbours_.emplace_back(lists[i].begin(), lists[i].end());
@@ -61,6 +59,7 @@ class MergingGraph {
   }
 
   /// Returns the neighbours of `keep` that it has another edge to than before: all if it moved.
+  /// \pre keep < gone.
   [[nodiscard]] std::vector<std::uint32_t> merge(std::uint32_t keep, std::uint32_t gone) {
     const Vec3 before = position_[keep];
     const bool keep_fixed = neighbours_[keep].size() != 2;
@@ -79,7 +78,7 @@ class MergingGraph {
       position_[keep] = (weight_[keep] * position_[keep] + weight_[gone] * position_[gone]) / total;
     }
     weight_[keep] = total;
-    parent_[gone] = keep;
+    merged_.join(keep, gone);
     std::vector<std::uint32_t> changed = std::exchange(neighbours_[gone], {});
     for (const std::uint32_t c : changed) {
       erase(c, gone);
@@ -92,12 +91,7 @@ class MergingGraph {
     return position_[keep] == before ? changed : neighbours_[keep];
   }
 
-  [[nodiscard]] std::uint32_t root(std::uint32_t node) const {
-    while (parent_[node] != node) {
-      node = parent_[node];
-    }
-    return node;
-  }
+  [[nodiscard]] std::uint32_t root(std::uint32_t node) { return merged_.root(node); }
 
   [[nodiscard]] const Vec3& position(std::uint32_t node) const { return position_[node]; }
 
@@ -117,7 +111,7 @@ class MergingGraph {
   std::vector<Vec3> position_;
   std::vector<double> weight_;
   std::vector<std::vector<std::uint32_t>> neighbours_{};
-  std::vector<std::uint32_t> parent_;
+  DisjointSets merged_;
 };
 
 }  // namespace
