@@ -2,6 +2,7 @@
 #include "operators/step_matrix.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace vantage {
 namespace {
@@ -30,7 +31,9 @@ bool NormalMatrix::fits(const Eigen::SparseMatrix<double>& L) {
     entries += is_wide(width) ? 0.0 : half_square(width);
   }
   const auto n = static_cast<double>(L.cols());
-  return std::min(entries, half_square(n)) <= std::max(kAlwaysAllowed, kMostAVertex * n);
+  constexpr double kMostOfAll = std::numeric_limits<int>::max();  // their places are int
+  return std::min(entries, half_square(n)) <=
+         std::min(std::max(kAlwaysAllowed, kMostAVertex * n), kMostOfAll);
 }
 
 NormalMatrix::NormalMatrix(const Eigen::SparseMatrix<double>& L)

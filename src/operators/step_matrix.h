@@ -36,8 +36,8 @@ class NormalMatrix {
   /// with the square of its entries, which one vertex with thousands of neighbours makes gigabytes.
   static constexpr int kWidestRow = 1000;
 
-  /// Whether the pattern of LᵀRL may be found: its entries are at most 2 million or 500 a vertex, by a
-  /// bound from the rows of L. A surface has 10 to 30 a vertex; of a soup of faces that share corners
+  /// Whether the pattern of LᵀRL may be found: its entries are at most 2 million or 500 a vertex, and at
+  /// most 2³¹ − 1, by a bound from the rows of L. A surface has 10 to 30 a vertex; of a soup of faces that share corners
   /// drawn by lot all n² / 2 may be there.
   static bool fits(const Eigen::SparseMatrix<double>& L);
 

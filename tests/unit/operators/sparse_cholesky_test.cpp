@@ -147,6 +147,19 @@ TEST(NormalMatrix, FitsUnlessItsEntriesAreAsManyAsOfFacesByLot) {
   EXPECT_FALSE(NormalMatrix::fits(band_of(8000, 220)));
 }
 
+/// Places of entries are counted in int.
+TEST(NormalMatrix, FitsNotWhereItsEntriesCannotBeCounted) {
+  const auto rows_of_31 = [](int n) {
+    Sparse L(n, n);
+    for (int column = 0; column <= n; ++column) {
+      L.outerIndexPtr()[column] = 31 * column;  // all that is looked at
+    }
+    return L;
+  };
+  EXPECT_TRUE(NormalMatrix::fits(rows_of_31(4'300'000)));  // 31 · 32 / 2 a row, below 2³¹
+  EXPECT_FALSE(NormalMatrix::fits(rows_of_31(4'400'000)));
+}
+
 TEST(SparseCholeskyFactorize, WorksAgainAfterAFailure) {
   SparseCholesky solver;
   solver.analyze(system_of_torus(1.0));
