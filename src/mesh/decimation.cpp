@@ -16,6 +16,7 @@
 #include "core/parallel.h"
 #include "mesh/collapse_cost.h"
 #include "mesh/place_order.h"
+#include "mesh/triangle_corners.h"
 
 namespace vantage {
 namespace {
@@ -298,7 +299,7 @@ class Decimator {
     std::size_t faces = 0;
     for (const Triangle& t : mesh_.triangles) {
       const Triangle c{number[t[0]], number[t[1]], number[t[2]]};
-      if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) {
+      if (!names_a_vertex_twice(c)) {
         mesh_.triangles[faces++] = c;
       }
     }
@@ -324,61 +325,85 @@ class Decimator {
   std::vector<std::uint32_t> apexes_{};
 };
 
-/// Costs are fourth powers of lengths, held in float: they need lengths of about 1.
-int unit_exponent(const TriMesh& mesh) {
-  return std::ilogb(std::max(bounding_box(referenced_points(mesh)).longest_side(),
-                             std::numeric_limits<double>::min()));
-}
-
-/// A power of two never rounds.
-void scale_by_power(TriMesh& mesh, int exponent) {
-  for (Vec3& p : mesh.positions) {
-    p = {std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent)};
+/// Where costs keep their digits: they are fourth powers of lengths, held in float. A power of two
+/// never rounds.
+class CostFrame {
+ public:
+  explicit CostFrame(const TriMesh& mesh) : box_(bounding_box(referenced_points(mesh))) {
+    const double size = box_.longest_side();
+    exponent_ = size > 0.0 ? std::ilogb(size) : 0;
   }
-}
+
+  /// Brings the mesh near the origin as well: quadrics are differences of squared distances from there.
+  /// It goes by multiples of four times its size, so that one that is near stays as it is to the bit, and
+  /// one that is far does not round on the way.
+  [[nodiscard]] static CostFrame near_origin(const TriMesh& mesh) {
+    CostFrame frame(mesh);
+    const Box& box = frame.box_;
+    const Vec3 middle = times_power(0.5 * box.low + 0.5 * box.high, -frame.exponent_ - 2);
+    frame.origin_ = times_power(middle.array().round(), frame.exponent_ + 2);
+    return frame;
+  }
+
+  [[nodiscard]] TriMesh to_frame(TriMesh mesh) const {
+    for (Vec3& p : mesh.positions) {
+      p = times_power(p - origin_, -exponent_);
+    }
+    return mesh;
+  }
+
+  [[nodiscard]] Decimation from_frame(Decimation coarse) const {
+    for (Vec3& p : coarse.mesh.positions) {
+      p = times_power(p, exponent_) + origin_;
+    }
+    return coarse;
+  }
+
+  /// A length of the mesh in the frame.
+  [[nodiscard]] double length(double of_mesh) const { return std::ldexp(of_mesh, -exponent_); }
+
+ private:
+  static Vec3 times_power(const Vec3& p, int exponent) {
+    return {std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent)};
+  }
+
+  Box box_;
+  int exponent_ = 0;
+  Vec3 origin_ = Vec3::Zero();  // in the mesh's units
+};
 
 }  // namespace
 
 Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run,
                     std::span<const double> weights) {
-  const int exponent = unit_exponent(fine);
-  TriMesh scaled = fine;
-  scale_by_power(scaled, -exponent);
+  const CostFrame frame = CostFrame::near_origin(fine);
+  const TriMesh scaled = frame.to_frame(fine);
   Decimator decimator(scaled, ByQuadric(scaled, weights), run);
   decimator.reduce_to(target, std::numeric_limits<double>::infinity());
-  Decimation coarse = decimator.result();
-  scale_by_power(coarse.mesh, exponent);
-  return coarse;
+  return frame.from_frame(decimator.result());
 }
 
 TwoDecimations decimate_twice(const TriMesh& fine, std::size_t between, std::size_t target,
                               const RunContext& run, std::span<const double> weights) {
   constexpr double kAnyCost = std::numeric_limits<double>::infinity();
-  const int exponent = unit_exponent(fine);
-  TriMesh scaled = fine;
-  scale_by_power(scaled, -exponent);
+  const CostFrame frame = CostFrame::near_origin(fine);
+  const TriMesh scaled = frame.to_frame(fine);
   Decimator decimator(scaled, ByQuadric(scaled, weights), run);
   TwoDecimations two;
   decimator.reduce_to(target, kAnyCost, between);
-  two.between = decimator.result();
+  two.between = frame.from_frame(decimator.result());
   decimator.reduce_to(target, kAnyCost);
-  two.coarse = decimator.result();
-  scale_by_power(two.between.mesh, exponent);
-  scale_by_power(two.coarse.mesh, exponent);
+  two.coarse = frame.from_frame(decimator.result());
   return two;
 }
 
 Decimation merge_short_edges(const TriMesh& fine, const std::vector<double>& weights,
                              double longest, const RunContext& run) {
-  const int exponent = unit_exponent(fine);
-  TriMesh scaled = fine;
-  scale_by_power(scaled, -exponent);
-  const double most = std::ldexp(longest, -exponent);
-  Decimator decimator(scaled, ByLength(weights), run);
+  const CostFrame frame(fine);
+  const double most = frame.length(longest);
+  Decimator decimator(frame.to_frame(fine), ByLength(weights), run);
   decimator.reduce_to(0, most * most);
-  Decimation merged = decimator.result();
-  scale_by_power(merged.mesh, exponent);
-  return merged;
+  return frame.from_frame(decimator.result());
 }
 
 }  // namespace vantage

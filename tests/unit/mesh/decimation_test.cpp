@@ -198,6 +198,22 @@ TEST(Decimate, DoesNotDependOnTheUnitOfLength) {
   }
 }
 
+/// A torus of which all coordinates are told exactly a million diameters away, too.
+TEST(Decimate, DoesNotDependOnThePlace) {
+  TriMesh mesh = test::torus(1.0, 0.4, 40, 20);
+  for (Vec3& p : mesh.positions) {
+    p = (0x1p24 * p).array().round() * 0x1p-24;
+  }
+  const Vec3 far(0x1p21, -0x1p22, 0x1p20);
+  const Decimation here = decimate(mesh, 200, {});
+  const Decimation there = decimate(test::moved(mesh, 1.0, 0.0, Vec3::UnitX(), far), 200, {});
+  ASSERT_EQ(there.of_vertex, here.of_vertex);
+  EXPECT_EQ(there.mesh.triangles, here.mesh.triangles);
+  for (std::size_t v = 0; v < here.mesh.positions.size(); ++v) {
+    EXPECT_LT((there.mesh.positions[v] - far - here.mesh.positions[v]).norm(), 1e-8) << v;
+  }
+}
+
 TEST(DecimateTwice, EndsWhereDecimateEndsAndRestsBetweenPasses) {
   const TriMesh ball = test::sphere(4);  // 2 562 vertices
   const TwoDecimations two = decimate_twice(ball, 1500, 400, {});
