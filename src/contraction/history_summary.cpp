@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/counted.h"
+
 namespace vantage {
 namespace {
 
@@ -68,8 +70,9 @@ void summarise(std::span<const ComponentHistory> parts, ContractionHistory& hist
   }
   add_remedies(history);
   if (failed > 0) {
-    history.warnings.push_back("the contraction of " + std::to_string(failed) +
-                               " component(s) ended early because its system could not be solved");
+    history.warnings.push_back("the contraction of " +
+                               counted(failed, "component", "components",
+                                       " ended early because a system could not be solved"));
   }
 }
 

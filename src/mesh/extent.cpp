@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
 namespace vantage {
@@ -46,6 +47,15 @@ std::string extent_problem(std::span<const Vec3> points) {
            " places apart across it; move it nearer and write it again";
   }
   return {};
+}
+
+void check_coordinates(const TriMesh& mesh) {
+  if (const std::string problem = finite_problem(mesh.positions); !problem.empty()) {
+    throw InvalidInput(problem);
+  }
+  if (const std::string problem = extent_problem(referenced_points(mesh)); !problem.empty()) {
+    throw InvalidInput("the model " + problem);
+  }
 }
 
 }  // namespace vantage

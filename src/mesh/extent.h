@@ -5,6 +5,7 @@
 #include <string>
 
 #include "vantage/core/vec3.h"
+#include "vantage/mesh/tri_mesh.h"
 
 /// \file
 /// How large, how small and how far from the origin a model may be.
@@ -23,6 +24,10 @@ inline constexpr double kFewestSteps = 1024.0;
 
 /// "vertex 7 has a coordinate that is infinite or no number", of the first that has; empty if none has.
 std::string finite_problem(std::span<const Vec3> points);
+
+/// Of a mesh that a public function takes. \throw InvalidInput with finite_problem(), or the sentence "the
+/// model …" of extent_problem() for the vertices that faces name, if there is one.
+void check_coordinates(const TriMesh& mesh);
 
 /// How many steps, from one double to the next at the largest coordinate, the points are across.
 double steps_across(std::span<const Vec3> points);

@@ -10,6 +10,7 @@
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
 
+#include "core/counted.h"
 #include "mesh/extent.h"
 #include "pipeline/drawn_points.h"
 #include "skeleton/point_skeleton.h"
@@ -102,15 +103,15 @@ ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
   shape.check.components = connected_components(shape.surface).count;
   list_coarse_coordinates(shape.surface.positions, shape.warnings);
   if (welded.merged_vertices > 0) {
-    shape.warnings.push_back(std::to_string(welded.merged_vertices) +
-                             " point(s) welded to an earlier one at the same position");
+    shape.warnings.push_back(counted(welded.merged_vertices, "point", "points",
+                                     " welded to an earlier one at the same position"));
   }
   const auto outliers =
       static_cast<std::size_t>(std::count(outlier.begin(), outlier.end(), std::uint8_t{1}));
   if (outliers > 0) {
     shape.check.components -= outliers;
-    shape.warnings.push_back(std::to_string(outliers) +
-                             " outlier(s) of the cloud left out of the skeleton and the map");
+    shape.warnings.push_back(counted(outliers, "outlier", "outliers",
+                                     " of the cloud left out of the skeleton and the map"));
   }
   const std::size_t bare = drawn.size() - referenced_points(shape.surface).size();
   shape.check.components -= bare;

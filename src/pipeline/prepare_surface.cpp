@@ -12,6 +12,7 @@
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/pipeline/shape_analysis.h"
 
+#include "core/counted.h"
 #include "core/parallel.h"
 #include "mesh/copied_faces.h"
 #include "mesh/extent.h"
@@ -20,15 +21,6 @@
 
 namespace vantage {
 namespace {
-
-std::string counted(std::size_t count, std::string_view one, std::string_view many,
-                    std::string_view rest) {
-  std::string text = std::to_string(count);
-  text += ' ';
-  text += count == 1 ? one : many;
-  text += rest;
-  return text;
-}
 
 void list_repairs(const WeldedMesh& welded, std::size_t copies, const OrientedMesh& oriented,
                   const MeshReport& check, std::vector<std::string>& warnings) {

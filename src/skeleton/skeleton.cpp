@@ -9,8 +9,10 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "core/counted.h"
 #include "core/parallel.h"
 #include "mesh/close_nodes.h"
+#include "mesh/extent.h"
 #include "skeleton/bent_ends.h"
 #include "skeleton/collapsed.h"
 #include "skeleton/curve_fitting.h"
@@ -130,9 +132,9 @@ Skeleton raw_skeleton(const TriMesh& mesh, const ContractionHistory& history, Co
                       const SkeletonOptions& options) {
   Skeleton skeleton;
   if (collapsed.lost_handles > 0) {
-    skeleton.warnings.push_back("the skeleton may have lost " +
-                                std::to_string(collapsed.lost_handles) +
-                                " handle(s) of the surface");
+    skeleton.warnings.push_back("the skeleton may have lost " + counted(collapsed.lost_handles,
+                                                                        "handle", "handles",
+                                                                        " of the surface"));
   }
   skeleton.raw_node_of_vertex = std::move(collapsed.node_of_vertex);
   const CurveGraph fine = without_isolated(collapsed.graph, history, skeleton.raw_node_of_vertex);
@@ -226,6 +228,7 @@ Skeleton of_refinement(const TriMesh& mesh, const ContractionHistory& whole,
 Skeleton extract(const TriMesh& mesh, const ContractionHistory& history,
                  const SkeletonOptions& options, Extent extent, const RunContext& run) {
   check_fields(options, kSkeletonFields);
+  check_coordinates(mesh);
   if (!belongs_to(history, mesh)) {
     throw InvalidInput("the contraction history does not belong to this mesh");
   }

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
@@ -78,6 +80,20 @@ IndexLists vertices_of_merged(const std::vector<std::uint32_t>& of_vertex, std::
     lists.values[cursor[of_vertex[v]]++] = v;
   }
   return lists;
+}
+
+/// Handles of a piece for which its graph has no cycle; where they cannot be counted, as of a surface that
+/// is not closed, those that the collapse could not keep.
+std::size_t lost_handles(const Piece& piece, const Collapsed& part) {
+  const std::size_t cycles = cycle_count(part.graph);
+  // Euler's formula for a closed surface; one with borders has fewer faces.
+  const bool may_have_more = piece.triangles.size() + 4 > 2 * piece.vertices.size() + 4 * cycles;
+  if (part.lost_handles == 0 && !may_have_more) {
+    return 0;
+  }
+  const std::optional<std::size_t> genus =
+      check_mesh({std::vector<Vec3>(piece.vertices.size(), Vec3::Zero()), piece.triangles}).genus;
+  return genus ? *genus - std::min(*genus, cycles) : part.lost_handles;
 }
 
 /// What is collapsed: the surface, or what contraction merged it to.
@@ -192,9 +208,9 @@ class SurfaceCollapse {
   [[nodiscard]] Collapsed joined(const std::vector<Collapsed>& parts) const {
     Collapsed whole;
     std::vector<std::vector<std::uint32_t>> nodes;
-    for (const Collapsed& part : parts) {
-      nodes.emplace_back(part.graph.nodes.size(), Skeleton::kNone);
-      whole.lost_handles += part.lost_handles;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      nodes.emplace_back(parts[p].graph.nodes.size(), Skeleton::kNone);
+      whole.lost_handles += lost_handles(pieces_.all[p], parts[p]);
     }
     const auto add = [&whole](const Vec3& position) {
       whole.graph.nodes.push_back(position);

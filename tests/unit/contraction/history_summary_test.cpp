@@ -35,7 +35,7 @@ TEST(Summarise, WarnsOfStepsThatWereMendedAndOfSystemsThatCouldNotBeSolved) {
   const std::vector<ComponentHistory> parts{other, one};
   summarise(parts, history);
   EXPECT_THAT(history.warnings, ElementsAre("contraction of component 2: step 2 rose and was split",
-                                            HasSubstr("1 component(s) ended early")));
+                                            HasSubstr("1 component ended early")));
 }
 
 TEST(Summarise, CountsWarningsThatItLeavesOut) {

@@ -138,6 +138,15 @@ TEST(SkeletonHistory, WithAnEarlierLevelOfAnotherSizeIsRefused) {
   EXPECT_THROW(extract_skeleton(mesh, history), InvalidInput);
 }
 
+TEST(SkeletonHistory, OfAMeshThatNothingCanBeComputedWithIsRefused) {
+  TriMesh mesh = test::sphere(1);
+  const ContractionHistory history = contract(mesh, kQuick);
+  for (Vec3& p : mesh.positions) {
+    p *= 1e62;
+  }
+  EXPECT_THROW(extract_skeleton(mesh, history), InvalidInput);
+}
+
 TEST(SkeletonHistory, WithoutATableOfComponentsIsRefused) {
   const TriMesh mesh = test::sphere(1);
   ContractionHistory history = contract(mesh, kQuick);

@@ -85,5 +85,14 @@ TEST(CollapseThinnest, OfEachComponentIsAsIfItWereAlone) {
               ::testing::ElementsAreArray(alone.node_of_vertex));
 }
 
+TEST(CollapseThinnest, CountsTheHandlesThatItsGraphHasNoCycleFor) {
+  const TriMesh mesh = lattice(3);
+  Levels levels = to_a_speck(mesh);
+  levels[0] = levels[1];
+  const Collapsed whole = collapsed(mesh, {levels});
+  EXPECT_GT(whole.lost_handles, 0U);
+  EXPECT_EQ(cycle_count(whole.graph) + whole.lost_handles, 144U - 64U + 1U);
+}
+
 }  // namespace
 }  // namespace vantage
