@@ -2,6 +2,7 @@
 #include "visibility/surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 

@@ -39,6 +39,17 @@ double projected_area(const std::vector<SeenFace>& faces) {
   return sum;
 }
 
+TEST(FaceVisibility, TakesDirectionsOfAnyLength) {
+  const FaceVisibility box(test::box(1.0, 2.0, 3.0, 1), {FaceSides::Front});
+  const Vec3 direction(1.0, 2.0, 3.0);
+  const auto expected = box.seen_faces({Projection::Orthographic, direction});
+  for (const double length : {0x1p-1030, 0x1p-600, 0x1p600, 0x1p1020}) {
+    const auto faces = box.seen_faces({Projection::Orthographic, Vec3(length * direction)});
+    ASSERT_EQ(faces.size(), expected.size()) << length;
+    EXPECT_EQ(projected_area(faces), projected_area(expected)) << length;
+  }
+}
+
 TEST(FaceVisibility, SeesThreeSidesOfABoxOfTwelveTriangles) {
   const FaceVisibility box(test::box(1.0, 2.0, 3.0, 1), {FaceSides::Front});
   const auto faces = box.seen_faces({Projection::Orthographic, Vec3(1.0, 1.0, 1.0)});
