@@ -46,12 +46,7 @@ struct Shells {
 
 /// +1 if the face runs along the edge from its lower to its higher vertex, −1 otherwise.
 int sense(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {
-  for (std::size_t corner = 0; corner < 3; ++corner) {
-    if (face[corner] == edge[0]) {
-      return face[(corner + 1) % 3] == edge[1] ? 1 : -1;
-    }
-  }
-  return 0;
+  return runs_from(face, edge[0], edge[1]) ? 1 : -1;
 }
 
 /// Of the faces that meet at the edge those of sets that run more often one way than the other.
@@ -167,20 +162,23 @@ Crossing crossing(const Vec3& start, const Vec3& direction, const Vec3& p, const
   const double error_bound = kErrorBound * squared_size;
   const std::array<double, 3> side{direction.dot(b.cross(c)), direction.dot(c.cross(a)),
                                    direction.dot(a.cross(b))};
-  const auto [low, high] = std::minmax_element(side.begin(), side.end());
-  if (*low<-error_bound&& * high> error_bound) {
+  const auto [low, high] = std::minmax({side[0], side[1], side[2]});
+  const bool passes_beside = low < -error_bound && high > error_bound;
+  if (passes_beside) {
     return Crossing::None;
   }
   const Vec3 normal = (b - a).cross(c - a);
   const double height = normal.dot(a);
   const double slope = normal.dot(direction);
-  const bool behind = (height > 0.0) != (slope > 0.0);
-  const double unsure_height = kErrorBound * std::sqrt(squared_size) * normal.norm();
-  if (behind && std::abs(height) > unsure_height && std::abs(slope) > kErrorBound * normal.norm()) {
+  const bool is_off_the_plane =
+      std::abs(height) > kErrorBound * std::sqrt(squared_size) * normal.norm();
+  const bool is_steep = std::abs(slope) > kErrorBound * normal.norm();
+  const bool is_behind = (height > 0.0) != (slope > 0.0);
+  if (is_behind && is_off_the_plane && is_steep) {
     return Crossing::None;
   }
-  const bool through = *low > error_bound || *high < -error_bound;
-  return through && std::abs(height) > unsure_height ? Crossing::Clear : Crossing::Doubtful;
+  const bool passes_through = low > error_bound || high < -error_bound;
+  return passes_through && is_off_the_plane ? Crossing::Clear : Crossing::Doubtful;
 }
 
 /// A direction that no modelling tool aligns anything with; `turn` selects one of a sequence that
