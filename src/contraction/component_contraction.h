@@ -26,7 +26,7 @@ struct ComponentHistory {
   std::vector<double> shrinkage{};          ///< [a_t] per level.
   std::vector<Vec3>
       thinned{};  ///< What ContractionHistory::thinned has of it; empty: the last level.
-  ComponentContraction summary{};  ///< Without what is said of `strategy`.
+  ComponentContraction summary{};  ///< summarise() fills in its `strategy` and `shrinkage`.
   ContractionStrategy strategy{};
   bool is_stuck = false;     ///< Ended far from a curve because no way to take a step was sound.
   bool was_unsound = false;  ///< An early step was not sound as it is defined.

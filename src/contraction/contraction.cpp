@@ -15,21 +15,19 @@
 #include "contraction/component_scaling.h"
 #include "contraction/history_builder.h"
 #include "contraction/hole_filling.h"
+#include "contraction/hole_sides.h"
 #include "contraction/missing_triangles.h"
 #include "contraction/proxy.h"
 #include "contraction/refinement.h"
 #include "contraction/second_mesh.h"
 #include "contraction/surface_contraction.h"
+#include "core/counted.h"
 #include "core/parallel.h"
 #include "mesh/extent.h"
 #include "mesh/pieces.h"
 
 namespace vantage {
 namespace {
-
-/// Vertices of pieces that are contracted side by side: bounds the memory; as many as kMostOfAll of
-/// refinement.cpp. [ours]
-constexpr std::size_t kTogether = 60'000;
 
 /// A surface that is cut into pieces.
 struct CutSurface {
@@ -67,11 +65,6 @@ PieceResult contract_piece(const CutSurface& cut, const Piece& piece,
   for (Vec3& p : scaled.positions) {
     p = scaling.scaled(p);
   }
-  if (scaled.triangles.empty()) {
-    return {.history = {.levels = {scaled.positions},
-                        .shrinkage = {1.0},
-                        .summary = {.vertices = scaled.positions.size()}}};
-  }
   PieceResult result;
   const std::size_t n = piece.vertices.size();
   if (const std::size_t size = cut.proxy_size(piece, options); size > 0) {
@@ -104,12 +97,12 @@ PieceResult contract_piece(const CutSurface& cut, const Piece& piece,
   return result;
 }
 
-/// The first pieces, as many as have kTogether vertices at most; at least one.
+/// The first pieces, as many as have kMostTogether vertices at most; at least one.
 std::span<const Piece> next_together(std::span<const Piece> pieces) {
   std::size_t count = 0;
   std::size_t vertices = 0;
   while (count < pieces.size() &&
-         (count == 0 || vertices + pieces[count].vertices.size() <= kTogether)) {
+         (count == 0 || vertices + pieces[count].vertices.size() <= kMostTogether)) {
     vertices += pieces[count++].vertices.size();
   }
   return pieces.first(count);
@@ -185,16 +178,6 @@ ContractionHistory of_refined(const TriMesh& mesh, RefinedSurface surface,
   return history;
 }
 
-bool has_holes(const TriMesh& mesh) {
-  const EdgeTable table = build_edge_table(mesh);
-  for (std::size_t e = 0; e < table.edges.size(); ++e) {
-    if (table.faces_of_edge[e].size() == 1) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Closes holes of components that lack little, and single missing triangles of others. \return how many.
 std::size_t close_holes(TriMesh& mesh) {
   const std::size_t filled = fill_holes(mesh);
@@ -207,7 +190,7 @@ ContractionHistory contract_by_area(const TriMesh& mesh, const ContractionOption
                                     const RunContext& run) {
   TriMesh whole;
   std::size_t holes = 0;
-  if (has_holes(mesh)) {
+  if (!hole_sides(mesh, build_edge_table(mesh)).empty()) {
     whole = mesh;
     holes = close_holes(whole);
   }
@@ -218,10 +201,9 @@ ContractionHistory contract_by_area(const TriMesh& mesh, const ContractionOption
   ContractionHistory history = refined ? of_refined(mesh, std::move(*refined), options, run)
                                        : contract_pieces(mesh, {}, options, run);
   if (holes > 0) {
-    history.warnings.push_back(
-        std::to_string(holes) +
-        (holes == 1 ? " hole in the surface was" : " holes in the surface were") +
-        " closed before the contraction");
+    history.warnings.push_back(counted(holes, "hole in the surface was",
+                                       "holes in the surface were",
+                                       " closed before the contraction"));
   }
   return history;
 }

@@ -42,7 +42,7 @@ class HistoryBuilder {
 
   const RunContext& run_;
   ContractionHistory history_{};
-  std::vector<ComponentHistory> parts_{};  ///< What there is to sum up of each, without its points.
+  std::vector<ComponentHistory> parts_{};  ///< Of each piece what summarise() reads: no levels.
 };
 
 }  // namespace vantage

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <tuple>
 
 #include "vantage/mesh/topology.h"
 
+#include "contraction/hole_sides.h"
 #include "mesh/triangle_corners.h"
 
 namespace vantage {
@@ -18,29 +18,6 @@ constexpr double kLongestEdge = 0.2;
 
 /// Sides that begin at a corner of a hole, at most [ours: bounds the work where all faces meet in one vertex].
 constexpr std::size_t kMostSides = 8;
-
-/// A side of a hole: the edge of one face, run through as a face in the hole would.
-struct HoleSide {
-  std::uint32_t from = 0;
-  std::uint32_t to = 0;
-  std::uint32_t face = 0;  // on its other side
-};
-
-std::vector<HoleSide> hole_sides(const TriMesh& mesh) {
-  const EdgeTable table = build_edge_table(mesh);
-  std::vector<HoleSide> sides;
-  for (std::size_t e = 0; e < table.edges.size(); ++e) {
-    if (const auto faces = table.faces_of_edge[e]; faces.size() == 1) {
-      const auto [a, b] = table.edges[e];
-      const bool is_against = runs_from(mesh.triangles[faces[0]], a, b);
-      sides.push_back({is_against ? b : a, is_against ? a : b, faces[0]});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const HoleSide& a, const HoleSide& b) {
-    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
-  });
-  return sides;
-}
 
 /// The sides that begin at a vertex; none where there are so many that it is no part of a sound surface.
 std::span<const HoleSide> few_sides_from(std::span<const HoleSide> sides, std::uint32_t vertex) {
@@ -96,7 +73,7 @@ std::vector<Triangle> triangles_between(std::span<const HoleSide> sides) {
 }  // namespace
 
 std::vector<Triangle> missing_triangles(const TriMesh& mesh) {
-  std::vector<Triangle> triangles = triangles_between(hole_sides(mesh));
+  std::vector<Triangle> triangles = triangles_between(hole_sides(mesh, build_edge_table(mesh)));
   if (!triangles.empty()) {
     const Components components = connected_components(mesh);
     const std::vector<double> sizes = radii(mesh, components);

@@ -98,7 +98,7 @@ std::vector<Piece> cut(const PointRings& rings, std::vector<std::uint32_t>& labe
   return pieces;
 }
 
-/// Contracts a piece in its own scale and writes its levels into the history of all samples.
+/// Contracts a piece in its own scale. \return its levels in model units.
 ComponentHistory contract_piece(const std::vector<Vec3>& points, const Piece& piece,
                                 const ContractionOptions& options, const RunContext& run) {
   std::vector<Vec3> scaled;

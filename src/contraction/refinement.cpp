@@ -40,8 +40,6 @@ constexpr double kCoarser = 1.25;  // factor on the edge length while that is ex
 constexpr double kManyVertices = 30'000.0;
 constexpr double kSmallPart = 0.25;
 constexpr double kLongEdge = 0.08;  // over the component's diameter
-/// Where that makes more vertices still, the smallest components stay as they are [ours].
-constexpr double kMostOfAll = 60'000.0;
 /// Vertices that may be added in all, whatever was estimated: a bound on time and memory [ours].
 constexpr std::size_t kMostAdded = 150'000;
 /// Faces that turn by more than this at their edge meet at a crease. [ours]
@@ -242,8 +240,8 @@ std::optional<RefinedSurface> refine_coarse_components(const TriMesh& mesh, cons
   double vertices = 0.0;
   for (const std::size_t p : largest_first(parts)) {
     vertices += estimated_vertices(parts[p], parts[p].edge);
-    if (vertices > kMostOfAll) {
-      break;
+    if (vertices > double{kMostTogether}) {
+      break;  // the smaller ones stay as they are
     }
     if (parts[p].is_coarse) {
       chosen.push_back(&parts[p]);

@@ -10,6 +10,10 @@
 
 namespace vantage {
 
+/// Vertices that refinement makes of all components, about, and those of components that are contracted side
+/// by side: bounds time and memory [ours].
+inline constexpr std::size_t kMostTogether = 60'000;
+
 /// A surface that was split finer. The vertices that were there come first.
 struct RefinedSurface {
   TriMesh mesh{};

@@ -12,6 +12,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "mesh/extent.h"
 #include "significance/feature_map.h"
 #include "spatial/graph_distance.h"
 
@@ -160,6 +161,7 @@ std::vector<double> level_weights(const ContractionHistory& history, const Curve
 void check_input(const TriMesh& mesh, const ContractionHistory& history, const CurveGraph& skeleton,
                  const KssmOptions& options) {
   check_fields(options, kKssmFields);
+  check_coordinates(mesh);
   const bool fits =
       std::all_of(history.levels.begin(), history.levels.end(),
                   [&](const auto& level) { return level.size() == mesh.positions.size(); });

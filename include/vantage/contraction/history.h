@@ -75,8 +75,8 @@ struct MergedSurface {
 /// What a component's second mesh is.
 enum class Remeshing : std::uint8_t {
   Coarser,  ///< Another mesh: where it contracts alike tells of the surface.
-  None,     ///< The first one. It has too few vertices for another, or did not contract.
-  Hardly,   ///< Nearly the first one: few edges could be collapsed.
+  None,     ///< The first mesh: that has fewer than 32 vertices, or took no step.
+  Hardly,   ///< Nearly the first mesh: few edges could be collapsed.
 };
 
 /// A second mesh of the same surface, coarser, contracted by itself. Where the two contractions agree, they tell of

@@ -83,8 +83,8 @@ struct KssmMap {
 /// \param other the curve of `history.second`. The input is measured to it, too, if displacements are
 /// summed, and it tells which levels are the surface's and which hang on how it is meshed; without nodes
 /// all count and the skeleton alone is measured to. Skeleton::curve and Skeleton::other_curve.
-/// \throw InvalidInput if `history` has no level or not one point a vertex at each, if the skeleton has
-/// no nodes, or an option is outside its range. \throw Cancelled
+/// \throw InvalidInput if a coordinate is beyond 1e60 or no number, if `history` has no level or not one point a
+/// vertex at each, if the skeleton has no nodes, or an option is outside its range. \throw Cancelled
 /// \complexity levels · |V| · log of the skeleton's edges.
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                      const CurveGraph& skeleton, const KssmOptions& options = {},

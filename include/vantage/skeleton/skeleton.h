@@ -74,7 +74,7 @@ struct Skeleton {
 double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options);
 
 /// Extracts the curve skeleton of `mesh` from ContractionHistory::thinnest() of its contraction.
-/// \pre `history` was computed from `mesh`. \throw InvalidInput as contract() of `mesh` does, Cancelled
+/// \pre `history` was computed from `mesh`. \throw InvalidInput, also beyond 1e60, Cancelled
 Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
                           const SkeletonOptions& options = {}, const RunContext& run = {});
 

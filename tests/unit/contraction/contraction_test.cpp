@@ -65,6 +65,15 @@ TEST(Contract, BringsATorusToItsCoreCircle) {
   EXPECT_LE(farthest, 0.5 * minor);
 }
 
+TEST(Contract, KeepsComponentsApartThatAFaceOfOneVertexTwiceNames) {
+  TriMesh mesh = test::together(test::sphere(1), test::sphere(1), {5.0, 0.0, 0.0});
+  const auto second = static_cast<std::uint32_t>(mesh.positions.size() / 2);
+  mesh.triangles.push_back({0, 0, second});
+  const ContractionHistory history = contract(mesh, kAsTheyAre);
+  EXPECT_EQ(history.components.size(), 2U);
+  EXPECT_NE(history.component_of_vertex[0], history.component_of_vertex[second]);
+}
+
 TEST(Contract, LeavesIsolatedVerticesExactlyWhereTheyAre) {
   TriMesh mesh = test::torus(1.0, 0.3, 16, 8);
   const Vec3 place(0.1, 0.2, 1.0 / 3.0);

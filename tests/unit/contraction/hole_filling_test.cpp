@@ -172,5 +172,20 @@ TEST(Contract, ClosesHolesAndSaysSo) {
   EXPECT_TRUE(contract(mesh, {.method = ContractionMethod::Exact}).warnings.empty());
 }
 
+/// One or two faces hang on a vertex of a closed surface.
+TEST(FillHoles, LeavesALooseFlapAlone) {
+  TriMesh mesh = test::sphere(3);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const Vec3 at = mesh.positions[100];
+  mesh.positions.insert(mesh.positions.end(),
+                        {Vec3(1.1 * at), Vec3(1.1 * at + 0.05 * Vec3::UnitZ()),
+                         Vec3(1.1 * at + 0.05 * Vec3::UnitX())});
+  mesh.triangles.push_back({100, first, first + 1});
+  EXPECT_EQ(holes_of(mesh), 0U);
+  mesh.triangles.push_back({100, first + 2, first});
+  EXPECT_EQ(holes_of(mesh), 0U);
+  EXPECT_EQ(holes_of(with_hole(mesh, -at, 0.2)), 1U);  // which hangs together without the flap
+}
+
 }  // namespace
 }  // namespace vantage

@@ -311,6 +311,14 @@ TEST(ComputeKssm, RefusesAnotherMeshsHistory) {
   EXPECT_THROW(compute_kssm(made.mesh, made.history, made.graph), InvalidInput);
 }
 
+TEST(ComputeKssm, RefusesCoordinatesThatItCannotComputeWith) {
+  HandMade made;
+  for (Vec3& p : made.mesh.positions) {
+    p *= 1e62;
+  }
+  EXPECT_THROW(compute_kssm(made.mesh, made.history, made.graph), InvalidInput);
+}
+
 TEST(ComputeKssm, RefusesAGraphWithoutNodes) {
   const HandMade made;
   EXPECT_THROW(compute_kssm(made.mesh, made.history, CurveGraph{}), InvalidInput);
