@@ -14,21 +14,12 @@
 #include "vantage/mesh/topology.h"
 
 #include "mesh/disjoint_sets.h"
+#include "mesh/triangle_corners.h"
 
 namespace vantage {
 namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
-
-/// Whether the triangle goes round from a to b.
-bool runs_along(const Triangle& t, const Edge& edge) {
-  for (std::size_t corner = 0; corner < 3; ++corner) {
-    if (t[corner] == edge[0]) {
-      return t[(corner + 1) % 3] == edge[1];
-    }
-  }
-  return false;
-}
 
 /// Whether the faces at an edge make a feature of it. A face without area says nothing.
 bool is_feature(const TriMesh& mesh, const Edge& edge, std::span<const std::uint32_t> faces,
@@ -39,8 +30,9 @@ bool is_feature(const TriMesh& mesh, const Edge& edge, std::span<const std::uint
   const Vec3 a = area_vector(mesh, mesh.triangles[faces[0]]);
   const Vec3 b = area_vector(mesh, mesh.triangles[faces[1]]);
   const double lengths = a.norm() * b.norm();
-  const bool against = runs_along(mesh.triangles[faces[0]], edge) ==
-                       runs_along(mesh.triangles[faces[1]], edge);  // wound against each other
+  const bool against =
+      runs_from(mesh.triangles[faces[0]], edge[0], edge[1]) ==
+      runs_from(mesh.triangles[faces[1]], edge[0], edge[1]);  // wound against each other
   return lengths > 0.0 && (against ? -a.dot(b) : a.dot(b)) < crease_cosine * lengths;
 }
 

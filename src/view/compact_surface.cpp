@@ -3,19 +3,17 @@
 
 #include "vantage/mesh/topology.h"
 
+#include "mesh/triangle_corners.h"
+
 namespace vantage {
 
 CompactSurface compact_surface(const TriMesh& surface, const std::vector<FaceSides>& sides) {
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::vector<std::uint32_t> row(surface.positions.size(), kNone);
-  std::vector<bool> named(surface.positions.size(), false);
+  const std::vector<bool> named = vertices_with_faces(surface);
   CompactSurface result;
-  for (const Triangle& t : surface.triangles) {
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
-      named[t[0]] = named[t[1]] = named[t[2]] = true;
-      result.mesh.triangles.push_back(t);
-    }
-  }
+  result.mesh.triangles = surface.triangles;
+  std::erase_if(result.mesh.triangles, names_a_vertex_twice);
   for (std::uint32_t v = 0; v < row.size(); ++v) {
     if (named[v]) {
       row[v] = static_cast<std::uint32_t>(result.vertex_of_row.size());

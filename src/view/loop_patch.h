@@ -29,8 +29,6 @@ class LoopPatch {
   /// Makes a vertex of the ring, by position in ring(), the centre.
   void move_to(std::size_t ring_index);
 
-  [[nodiscard]] const Vec3& centre() const { return directions_[centre_]; }
-
   /// Directions around the centre, in a fixed order.
   [[nodiscard]] std::vector<Vec3> ring() const;
 

@@ -15,6 +15,7 @@
 #include "core/cross.h"
 #include "core/shannon.h"
 #include "core/unit_direction.h"
+#include "mesh/triangle_corners.h"
 #include "view/outline_sweep.h"
 #include "view/turning.h"
 
@@ -186,10 +187,8 @@ OutlineTracer::OutlineTracer(const TriMesh& mesh, std::span<const FaceSides> sid
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const auto faces = faces_of_edge_[e];
     for (const std::uint32_t f : faces) {
-      const Triangle& t = mesh.triangles[f];
-      const auto at =
-          static_cast<std::size_t>(std::find(t.begin(), t.end(), edges_[e][0]) - t.begin());
-      follows_.push_back(t[(at + 1) % 3] == edges_[e][1] ? std::int8_t{1} : std::int8_t{-1});
+      const bool follows = runs_from(mesh.triangles[f], edges_[e][0], edges_[e][1]);
+      follows_.push_back(follows ? std::int8_t{1} : std::int8_t{-1});
     }
     if (faces.size() == 2 && follows_.end()[-1] != follows_.end()[-2]) {
       const std::size_t first = follows_.end()[-2] > 0 ? 0 : 1;
