@@ -149,10 +149,7 @@ MeshReport check_mesh(const TriMesh& mesh, const RunContext& run) {
   report.faces = mesh.triangles.size();
   report.duplicate_vertices = weld(mesh, run).merged_vertices;
   report.isolated_vertices = count_unnamed_vertices(mesh);
-  const std::vector<bool> on_surface = vertices_with_faces(mesh);
-  report.components =
-      connected_components(mesh).count -
-      static_cast<std::size_t>(std::count(on_surface.begin(), on_surface.end(), false));
+  report.components = connected_components(mesh).count - report.isolated_vertices;
   run.check();
   const EdgeTable table = build_edge_table(mesh);
   run.check();

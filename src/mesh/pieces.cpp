@@ -3,15 +3,22 @@
 
 #include "vantage/mesh/topology.h"
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/triangle_corners.h"
 
 namespace vantage {
 
 Pieces cut_into_pieces(const TriMesh& mesh) {
   const std::size_t n = mesh.positions.size();
-  const Components components = connected_components(mesh);
   const std::vector<bool> has_faces = vertices_with_faces(mesh);
-  std::vector<std::uint32_t> piece_of_component(components.count, Pieces::kIsolated);
+  // Without the faces that name a vertex twice, which would join two components.
+  DisjointSets sets(n);
+  for (const Triangle& t : mesh.triangles) {
+    if (!names_a_vertex_twice(t)) {
+      sets.join(t[0], t[1]);
+      sets.join(t[1], t[2]);
+    }
+  }
   Pieces pieces;
   pieces.of_vertex.assign(n, Pieces::kIsolated);
   pieces.local.assign(n, 0);
@@ -19,12 +26,11 @@ Pieces cut_into_pieces(const TriMesh& mesh) {
     if (!has_faces[v]) {
       continue;
     }
-    std::uint32_t& p = piece_of_component[components.of_vertex[v]];
-    if (p == Pieces::kIsolated) {
-      p = static_cast<std::uint32_t>(pieces.all.size());
+    if (sets.root(v) == v) {
+      pieces.of_vertex[v] = static_cast<std::uint32_t>(pieces.all.size());
       pieces.all.emplace_back();
     }
-    pieces.of_vertex[v] = p;
+    const std::uint32_t p = pieces.of_vertex[v] = pieces.of_vertex[sets.root(v)];
     pieces.local[v] = static_cast<std::uint32_t>(pieces.all[p].vertices.size());
     pieces.all[p].vertices.push_back(v);
   }

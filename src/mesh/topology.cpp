@@ -130,11 +130,9 @@ IndexLists vertex_faces(const TriMesh& mesh) {
 
 Components connected_components(const TriMesh& mesh) {
   DisjointSets sets(mesh.positions.size());
-  for (const Triangle& t : mesh.triangles) {
-    if (!names_a_vertex_twice(t)) {
-      sets.join(t[0], t[1]);
-      sets.join(t[1], t[2]);
-    }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sets.join(a, b);
+    sets.join(b, c);
   }
   Components components;
   components.of_vertex.resize(mesh.positions.size());

@@ -16,7 +16,7 @@ namespace vantage {
 struct MeshReport {
   std::size_t vertices = 0;               ///< Isolated ones too.
   std::size_t faces = 0;                  ///< Triangles, degenerate ones too.
-  std::size_t components = 0;             ///< Of the faces that name three different vertices.
+  std::size_t components = 0;             ///< Of the surface; isolated vertices are not counted.
   std::size_t isolated_vertices = 0;      ///< Named by no face.
   std::size_t duplicate_vertices = 0;     ///< Positions that appeared before.
   std::size_t repeated_index_faces = 0;   ///< Faces that name a vertex twice.

@@ -52,13 +52,13 @@ std::vector<bool> vertices_with_faces(const TriMesh& mesh);
 std::vector<std::uint32_t> count_fans(const TriMesh& mesh);
 
 /// Label of the connected component of each vertex, numbered by lowest vertex index; vertices that
-/// no face with three different corners names are components of their own.
+/// no face names are components of their own.
 struct Components {
   std::vector<std::uint32_t> of_vertex{};  ///< |V| labels.
   std::size_t count = 0;                   ///< Number of labels.
 };
 
-/// Components of the surface by shared vertices; a face that names a vertex twice joins nothing.
+/// Components of the surface by shared vertices.
 Components connected_components(const TriMesh& mesh);
 
 }  // namespace vantage
