@@ -18,6 +18,7 @@
 #include "io/gltf_document.h"
 #include "io/gltf_nodes.h"
 #include "io/gltf_skin.h"
+#include "io/gltf_triangles.h"
 #include "io/model_builder.h"
 #include "io/readers.h"
 #include "io/reuse_budget.h"
@@ -293,7 +294,10 @@ class SceneReader {
       builder_.fail("the positions of a primitive do not have 3 components");
     }
     if (!points.has_data()) {
-      builder_.fail("the positions of a primitive have no data");
+      builder_.fail(std::string("the positions of a primitive have no data") +
+                    (is_morphed_primitive(primitive) ? ": its shape is in morph targets, which are "
+                                                       "not read; bake them, for example in Blender"
+                                                     : ""));
     }
     spend(points.count());
     std::optional<GltfSkinnedVertices> skinned;
@@ -319,7 +323,8 @@ class SceneReader {
       const Eigen::Matrix4d placed =
           is_held && points.count() > 0 ? skinned->transform(0) : Eigen::Matrix4d(world);
       const bool is_mirrored = placed.topLeftCorner<3, 3>().determinant() < 0.0;
-      read_faces(primitive, first, points.count(), is_mirrored);
+      add_gltf_triangles(corners_of(primitive, points.count()), primitive.mode, first, is_mirrored,
+                         builder_);
     }
   }
 
@@ -338,13 +343,17 @@ class SceneReader {
       return;
     }
     std::vector<std::array<double, 3>> values(count, {1.0, 1.0, 1.0});
+    const auto material = static_cast<std::size_t>(primitive.material);
+    const bool counts_opacity = primitive.material >= 0 &&
+                                material < document_.counts_opacity.size() &&
+                                document_.counts_opacity[material];
     try {
       const GltfAccessor colours(document_, colour->second, count, builder_);
       if (colours.count() != count || colours.components() < 3) {
         builder_.fail("the colours of a primitive do not fit its positions");
       }
       for (std::size_t i = 0; i < count; ++i) {
-        has_clear_ |= colours.components() > 3 && colours.value(i, 3) < 1.0;
+        has_clear_ |= counts_opacity && colours.components() > 3 && colours.value(i, 3) < 1.0;
         values[i] = {colours.value(i, 0), colours.value(i, 1), colours.value(i, 2)};
       }
       vertices_have_colours_ = true;
@@ -420,37 +429,6 @@ class SceneReader {
       }
     }
     return corners;
-  }
-
-  /// \param mirrored the node turns the surface inside out, which the format takes back.
-  void read_faces(const tinygltf::Primitive& primitive, std::size_t first, std::size_t vertices,
-                  bool mirrored) {
-    std::vector<std::uint64_t> corners = corners_of(primitive, vertices);
-    const Place place{"vertex", first};
-    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-      const std::uint64_t second = corners[mirrored ? c : b];
-      const std::uint64_t third = corners[mirrored ? b : c];
-      builder_.add_triangle(first + corners[a], first + second, first + third, place);
-    };
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
-      if (corners.size() % 3 != 0) {
-        builder_.note("corners beyond the last whole triangle left out: " +
-                      std::to_string(corners.size() % 3));
-      }
-      for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-        add(i, i + 1, i + 2);
-      }
-      return;
-    }
-    for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-      const bool is_fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
-      const std::size_t a = is_fan ? 0 : i;
-      const bool joins_strips = corners[a] == corners[i + 1] || corners[i + 1] == corners[i + 2] ||
-                                corners[i + 2] == corners[a];
-      if (!joins_strips) {
-        is_fan || i % 2 == 0 ? add(a, i + 1, i + 2) : add(i + 1, i, i + 2);
-      }
-    }
   }
 
   const GltfDocument& document_;

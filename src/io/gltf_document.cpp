@@ -9,6 +9,7 @@
 #define TINYGLTF_NO_FS
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <set>
@@ -19,6 +20,7 @@
 #include "io/byte_cursor.h"
 #include "io/gltf_compression.h"
 #include "io/gltf_document.h"
+#include "io/gltf_json.h"
 #include "io/gltf_materials.h"
 #include "io/gltf_uri.h"
 #include "io/number_parsing.h"
@@ -298,12 +300,32 @@ void read_buffers(const Json& root, const Chunks& chunks, const BufferSource& so
   }
 }
 
-/// Leaves their extensions out, but not which of them each one is.
+/// Whether tinygltf would take it as the index of something.
+bool is_index(const Json& value) {
+  return value.is_number_unsigned() &&
+         value.get<std::uint64_t>() <= std::uint64_t{std::numeric_limits<std::int32_t>::max()};
+}
+
+/// What the extras of a primitive say besides its number.
+constexpr const char* kPrimitiveIndices = "indices";
+constexpr const char* kPrimitiveTargets = "targets";
+
+/// Leaves their extensions out, but not which of them each one is. The accessor of the indices goes to the
+/// extras: tinygltf takes one without a buffer view for invalid, which packed, sparse and zero ones may be.
 void number_primitives(Json& primitives, std::size_t& number) {
   for (Json& primitive : primitives) {
     if (primitive.is_object()) {
       primitive["extras"] = {{kPrimitiveNumber, number}};
-      if (is_packed_primitive(primitive)) {  // its own indices have no data, which tinygltf minds
+      const Json& targets = member(primitive, "targets");
+      if (targets.is_array() && !targets.empty()) {
+        primitive["extras"][kPrimitiveTargets] = 1;
+      }
+      const Json& indices = member(primitive, "indices");
+      const bool is_packed = is_packed_primitive(primitive);
+      if (is_packed || is_index(indices)) {
+        if (!is_packed) {
+          primitive["extras"][kPrimitiveIndices] = indices;
+        }
         primitive.erase("indices");
       }
       primitive.erase("extensions");
@@ -361,10 +383,20 @@ tinygltf::Model parse_structure(const Json& root, const ModelBuilder& builder) {
     builder.fail("is not valid glTF: " +
                  std::string(first.empty() ? "a value has a wrong type" : trimmed(first)));
   }
+  for (tinygltf::Mesh& mesh : model.meshes) {
+    for (tinygltf::Primitive& primitive : mesh.primitives) {
+      const tinygltf::Value& indices = primitive.extras.Get(kPrimitiveIndices);
+      primitive.indices = indices.IsInt() ? indices.GetNumberAsInt() : primitive.indices;
+    }
+  }
   return model;
 }
 
 }  // namespace
+
+bool is_morphed_primitive(const tinygltf::Primitive& primitive) {
+  return primitive.extras.Has(kPrimitiveTargets);
+}
 
 GltfDocument read_gltf_document(std::string_view bytes, const Surroundings& surroundings,
                                 ModelBuilder& builder) {
@@ -380,6 +412,7 @@ GltfDocument read_gltf_document(std::string_view bytes, const Surroundings& surr
   document.hidden_nodes = hidden_nodes(root);
   document.base_colours = gltf_base_colours(root);
   document.texcoord_sets = gltf_texcoord_sets(root);
+  document.counts_opacity = gltf_counts_opacity(root);
   document.total_bytes = bytes.size();
   read_buffers(root, chunks, surroundings.buffers, builder, document);
   unpack_gltf(root, document, builder);

@@ -14,6 +14,9 @@
 
 namespace vantage {
 
+/// Whether a primitive, as its extras say, has morph targets; they are not read.
+bool is_morphed_primitive(const tinygltf::Primitive& primitive);
+
 /// A glTF file: its structure as tinygltf reads it, and its buffers as we read them.
 struct GltfDocument {
   tinygltf::Model structure{};         ///< Scenes, nodes, meshes, accessors, buffer views.
@@ -22,6 +25,8 @@ struct GltfDocument {
   std::vector<std::array<double, 3>> base_colours{};
   /// Which TEXCOORD_n the colour texture of each material uses.
   std::vector<int> texcoord_sets{};
+  /// Whether what shows a material may be clear: that it is not said to be opaque.
+  std::vector<bool> counts_opacity{};
   std::vector<bool> hidden_nodes{};  ///< Nodes that are not shown, nor what is below them.
   std::size_t total_bytes = 0;       ///< Of the file and its buffers, each counted once.
   std::size_t unpacked_bytes = 0;    ///< Of what was packed in them.

@@ -11,6 +11,7 @@
 
 #include "io/gltf_json.h"
 #include "io/gltf_uri.h"
+#include "io/number_parsing.h"
 #include "io/texture_loader.h"
 
 namespace vantage {
@@ -79,6 +80,11 @@ int texcoord_set(const Json& texture_info) {
   return set.is_number_unsigned() && set.get<std::size_t>() < kMostSets ? set.get<int>() : 0;
 }
 
+AlphaMode alpha_mode(const Json& material) {
+  const Json& mode = member(material, "alphaMode");
+  return mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+}
+
 TextureWrap wrap_of(const Json& sampler, const char* name) {
   const double mode = number(member(sampler, name), 0.0);
   constexpr double kClampToEdge = 33071.0;
@@ -127,10 +133,7 @@ class MaterialReader {
   Material material(const Json& source) {
     const ColourSource colour = colour_source(source);
     Material result;
-    const Json& mode = member(source, "alphaMode");
-    result.alpha = mode == "MASK"    ? AlphaMode::Mask
-                   : mode == "BLEND" ? AlphaMode::Blend
-                                     : AlphaMode::Opaque;
+    result.alpha = alpha_mode(source);
     result.opacity = share(colour.factor, 3, 1.0);
     result.alpha_cutoff = std::clamp(number(member(source, "alphaCutoff"), 0.5), 0.0, 1.0);
     result.unlit = extension(source, "KHR_materials_unlit").is_object();
@@ -180,9 +183,11 @@ class MaterialReader {
       return std::nullopt;
     }
     const Json& plain = member(source, "source");
-    const Json& image_index = plain.is_number_unsigned()
-                                  ? plain
-                                  : member(extension(source, "EXT_texture_webp"), "source");
+    const Json& webp = member(extension(source, "EXT_texture_webp"), "source");
+    const Json& image_index = plain.is_number_unsigned() ? plain : webp;
+    if (!image_index.is_number_unsigned() && complains_of_extension(source)) {
+      return std::nullopt;
+    }
     const Json& sampler = item(root_, "samplers", member(source, "sampler"));
     constexpr double kNearest = 9728.0;
     const TextureWrap wrap_u = wrap_of(sampler, "wrapS");
@@ -196,6 +201,28 @@ class MaterialReader {
       textures_.push_back({std::move(*image), wrap_u, wrap_v, nearest});
     }
     return known->second;
+  }
+
+  /// Whether the only image of a texture is one that an extension packs; if so, a note says it once.
+  bool complains_of_extension(const Json& source) {
+    const Json& extensions = member(source, "extensions");
+    if (!extensions.is_object()) {
+      return false;
+    }
+    for (const auto& [name, content] : extensions.items()) {
+      const Json& index = member(content, "source");
+      const Json& image = item(root_, "images", index);
+      if (image.is_object()) {
+        if (packed_.insert(&image).second) {
+          loader_.complain("image " + std::to_string(index.get<std::size_t>()),
+                           "is packed by " + in_quotes(name) +
+                               ", which is not read; convert it to PNG or WebP, for example with "
+                               "gltf-transform");
+        }
+        return true;
+      }
+    }
+    return false;
   }
 
   std::optional<Image> picture(const Json& index) {
@@ -245,6 +272,7 @@ class MaterialReader {
   /// By image and how it is sampled.
   std::map<std::tuple<const Json*, TextureWrap, TextureWrap, bool>, std::optional<std::uint32_t>>
       known_{};
+  std::set<const Json*> packed_{};   ///< Images that were complained of.
   std::set<const char*> useless_{};  ///< Where bytes of buffers begin that gave no picture.
 };
 
@@ -267,6 +295,15 @@ std::vector<int> gltf_texcoord_sets(const Json& root) {
     sets.push_back(texcoord_set(leading_texture(list[m])));
   }
   return sets;
+}
+
+std::vector<bool> gltf_counts_opacity(const Json& root) {
+  std::vector<bool> counts;
+  const Json& list = member(root, "materials");
+  for (std::size_t m = 0; list.is_array() && m < list.size(); ++m) {
+    counts.push_back(alpha_mode(list[m]) != AlphaMode::Opaque);
+  }
+  return counts;
 }
 
 void read_gltf_materials(const Json& root, const GltfDocument& document,

@@ -18,6 +18,9 @@ std::vector<std::array<double, 3>> gltf_base_colours(const nlohmann::json& root)
 /// Which TEXCOORD_n each material's textures use.
 std::vector<int> gltf_texcoord_sets(const nlohmann::json& root);
 
+/// Whether the opacity of each material counts: that it is not said to be opaque.
+std::vector<bool> gltf_counts_opacity(const nlohmann::json& root);
+
 /// Reads materials and the pictures that their colour textures show into the builder: base colour or,
 /// of KHR_materials_pbrSpecularGlossiness, diffuse colour; KHR_texture_transform, EXT_texture_webp,
 /// KHR_materials_unlit, emission with KHR_materials_emissive_strength. Their colours stay white: the reader gives them to the vertices.

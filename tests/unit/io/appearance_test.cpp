@@ -430,5 +430,21 @@ TEST_F(ObjAppearance, AMaskOfTheSamePictureMakesHolesAndDissolvingMakesGlass) {
   EXPECT_EQ(model.appearance.materials.at(1).opacity, 0.25);
 }
 
+TEST(GltfAppearance, NamesThePictureAndTheExtensionThatPacksIt) {
+  const std::string basis =
+      R"(,"images":[{"uri":"wood.ktx2"},{"uri":"leaf.ktx2"}],"textures":[
+        {"extensions":{"KHR_texture_basisu":{"source":0}}},
+        {"extensions":{"KHR_texture_basisu":{"source":1}}}])";
+  const std::string two =
+      R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+         {"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}})";
+  EXPECT_THAT(
+      parse_model(gltf(two, basis), "a.gltf", {}, kAll).notes,
+      ElementsAre(
+          "the texture image 0 was left out: it is packed by 'KHR_texture_basisu', which is "
+          "not read; convert it to PNG or WebP, for example with gltf-transform",
+          HasSubstr("the texture image 1 was left out")));
+}
+
 }  // namespace
 }  // namespace vantage::test

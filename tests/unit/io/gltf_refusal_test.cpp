@@ -270,5 +270,16 @@ TEST(Gltf, RefusesABufferThatIsNotBase64) {
   }
 }
 
+TEST(Gltf, SaysWhereTheShapeOfAMeshOfMorphTargetsIsAndWhatToDo) {
+  Scene scene;
+  scene.accessors = R"({"componentType":5126,"count":3,"type":"VEC3"},
+      {"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"})";
+  scene.primitive = R"({"attributes":{"POSITION":0},"targets":[{"POSITION":1}]})";
+  EXPECT_THAT(scene.error(), HasSubstr("its shape is in morph targets, which are not read; bake"));
+  scene.primitive = R"({"attributes":{"POSITION":0},"targets":[]})";
+  EXPECT_THAT(scene.error(), HasSubstr("have no data"));
+  EXPECT_THAT(scene.error(), testing::Not(HasSubstr("morph")));
+}
+
 }  // namespace
 }  // namespace vantage::test

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -240,7 +244,8 @@ TEST(Gltf, TurnsLinearColoursIntoSrgb) {
   scene.views += R"(,{"buffer":0,"byteOffset":52,"byteLength":16})";
   scene.accessors +=
       R"(,{"bufferView":2,"componentType":5121,"normalized":true,"count":4,"type":"VEC4"})";
-  scene.primitive = R"({"attributes":{"POSITION":0,"COLOR_0":2}})";
+  scene.primitive = R"({"attributes":{"POSITION":0,"COLOR_0":2},"material":0})";
+  scene.more = R"(,"materials":[{"alphaMode":"BLEND"}])";
   // 0x80 / 255 = 0.502 linear is 1.055 · 0.502^(1/2.4) − 0.055 = 0.7367, times 255 = 187.9
   EXPECT_EQ(scene.parsed().vertex_colours[0], (Rgb8{255, 0, 188}));
   EXPECT_FALSE(scene.parsed().colours_are_materials);
@@ -323,6 +328,42 @@ TEST(Gltf, ReadsADataUriThatIsPercentEncoded) {
   }
   scene.buffer = R"({"byteLength":52,"uri":"data:application/octet-stream,)" + data + "\"}";
   EXPECT_EQ(scene.parsed().mesh.positions.at(1), Vec3(1, 0, 0));
+}
+
+TEST(Gltf, ReadsIndicesThatAreSparseOrZeroAndSoHaveNoBufferView) {
+  Scene scene;
+  scene.accessors =
+      R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+         {"componentType":5121,"count":4,"type":"SCALAR","sparse":{"count":4,
+          "indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":1}}},
+         {"componentType":5121,"count":3,"type":"SCALAR"})";
+  EXPECT_EQ(scene.error(), "nothing");
+  EXPECT_THAT(scene.parsed().mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}));
+  scene.primitive += R"(,{"attributes":{"POSITION":0},"indices":2})";
+  EXPECT_EQ(scene.error(), "nothing");
+  EXPECT_THAT(scene.parsed().mesh.triangles,
+              ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}, Triangle{4, 4, 4}));
+}
+
+TEST(Gltf, TheOpacityOfVerticesIsNotMissedWhereTheMaterialIgnoresIt) {
+  Scene scene;
+  scene.binary += std::string(16, '\x7F');
+  scene.views += R"(,{"buffer":0,"byteOffset":52,"byteLength":16})";
+  scene.accessors +=
+      R"(,{"bufferView":2,"componentType":5121,"normalized":true,"count":4,"type":"VEC4"})";
+  scene.primitive =
+      R"({"attributes":{"POSITION":0,"COLOR_0":2},"indices":1,"mode":5,"material":0})";
+  const auto is_missed = [&](const std::string& mode) {
+    scene.more = R"(,"materials":[{)" + mode + "}]";
+    const std::vector<std::string> notes = scene.parsed().notes;
+    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("the opacity of vertices was left out") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_missed(R"("alphaMode":"BLEND")"));
+  EXPECT_TRUE(is_missed(R"("alphaMode":"MASK")"));
+  EXPECT_FALSE(is_missed(R"("alphaMode":"OPAQUE")"));
+  EXPECT_FALSE(is_missed(""));
 }
 
 }  // namespace
