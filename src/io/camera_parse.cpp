@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -81,15 +82,54 @@ class CameraReader : private JsonReader {
     return nodes;
   }
 
-  /// The first node that has a camera.
+  /// The first node with a camera in the scene that is shown, or else the first of all.
   std::size_t gltf_node() const {
     const Json& nodes = gltf_nodes();
+    const std::vector<bool> shown = gltf_shown();
+    std::optional<std::size_t> first;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (has(nodes[i], "camera")) {
-        return i;
+        if (shown[i]) {
+          return i;
+        }
+        first = first.value_or(i);
       }
     }
-    fail("holds no node with a camera");
+    if (!first) {
+      fail("holds no node with a camera");
+    }
+    return *first;
+  }
+
+  /// Of each node, whether the default scene, or else the first, shows it.
+  std::vector<bool> gltf_shown() const {
+    const Json& nodes = gltf_nodes();
+    std::vector<bool> shown(nodes.size(), false);
+    std::vector<std::size_t> to_visit;
+    const auto show = [&](const Json& object, const char* list) {
+      if (!has(object, list) || !object.at(list).is_array()) {
+        return;
+      }
+      for (const Json& node : object.at(list)) {
+        const std::size_t n = node.is_number_unsigned() ? node.get<std::size_t>() : nodes.size();
+        if (n < nodes.size() && !shown[n]) {
+          shown[n] = true;
+          to_visit.push_back(n);
+        }
+      }
+    };
+    const bool has_default = has(root(), "scene") && root().at("scene").is_number_unsigned();
+    const std::size_t scene = has_default ? root().at("scene").get<std::size_t>() : 0;
+    if (has(root(), "scenes") && root().at("scenes").is_array() &&
+        scene < root().at("scenes").size()) {
+      show(root().at("scenes")[scene], "nodes");
+    }
+    while (!to_visit.empty()) {
+      const std::size_t n = to_visit.back();
+      to_visit.pop_back();
+      show(nodes[n], "children");
+    }
+    return shown;
   }
 
   /// The node that another one is a child of.

@@ -280,5 +280,29 @@ TEST(ParseCamera, RefusesACameraThatSeesNothing) {
                FormatError);
 }
 
+TEST(CameraGltf, IsOneOfTheSceneThatIsShown) {
+  const auto eye = [](const std::string& scenes) {
+    return parse_camera(R"({"cameras":[{"perspective":{"yfov":0.5,"aspectRatio":2}},
+        {"perspective":{"yfov":0.5,"aspectRatio":3}}],"nodes":[
+        {"camera":0,"translation":[0,0,5]},{"children":[2]},{"camera":1,"translation":[0,0,9]}])" +
+                            scenes + "}",
+                        "c.gltf")
+        .eye.z();
+  };
+  EXPECT_EQ(eye(R"(,"scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}])"), 9.0);
+  EXPECT_EQ(eye(R"(,"scenes":[{"nodes":[1]},{"nodes":[0]}])"), 9.0);
+  EXPECT_EQ(eye(R"(,"scenes":[{"nodes":[1,0]}])"), 5.0);  // the first of several
+  EXPECT_EQ(eye(""), 5.0);
+  EXPECT_EQ(eye(R"(,"scene":7,"scenes":[{"nodes":[1]}])"), 5.0);  // better any than none
+  EXPECT_EQ(eye(R"(,"scenes":[{"nodes":[7,-1,"a"]},{"nodes":3}])"), 5.0);
+  EXPECT_NEAR(parse_camera_aspect(
+                  R"({"cameras":[{"perspective":{"yfov":0.5,"aspectRatio":2}},
+                      {"perspective":{"yfov":0.5,"aspectRatio":3}}],"nodes":[{"camera":0},
+                      {"camera":1}],"scenes":[{"nodes":[1]}]})",
+                  "c.gltf")
+                  .value(),
+              3.0, 1e-15);
+}
+
 }  // namespace
 }  // namespace vantage::test
