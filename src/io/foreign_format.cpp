@@ -9,6 +9,7 @@
 #include "vantage/io/import_stream.h"
 
 #include "io/byte_cursor.h"
+#include "io/text_cursor.h"
 
 namespace vantage {
 namespace {
@@ -32,7 +33,7 @@ struct ForeignMagic {
 
 using namespace std::string_view_literals;
 
-constexpr std::array<ForeignMagic, 35> kForeignMagics = {{
+constexpr std::array<ForeignMagic, 36> kForeignMagics = {{
     {"\x1F\x8B"sv, "is compressed with gzip", kUnpack, "gunzip"},
     {"BZh"sv, "is compressed with bzip2", kUnpack, "bunzip2"},
     {"\xFD"
@@ -69,6 +70,8 @@ constexpr std::array<ForeignMagic, 35> kForeignMagics = {{
     {"\xFF\xD8\xFF"sv, "is a JPEG picture", kNoModel, ""},
     {"GIF8"sv, "is a GIF picture", kNoModel, ""},
     {"%PDF"sv, "is a PDF document", kNoModel, ""},
+    {"version https://git-lfs"sv, "is a Git LFS pointer in place of the file", "; fetch it, with ",
+     "git lfs pull"},
     {"\xFF\xFE"sv, "is UTF-16 text; convert it first, with ", "iconv -f UTF-16 -t UTF-8", ""},
     {"\xFE\xFF"sv, "is UTF-16 text; convert it first, with ", "iconv -f UTF-16 -t UTF-8", ""},
 }};
@@ -100,6 +103,16 @@ constexpr std::size_t kTellingBytes = 8192;
 
 bool says(std::string_view bytes, std::string_view word) {
   return bytes.substr(0, kTellingBytes).find(word) != std::string_view::npos;
+}
+
+/// What a server sends in place of a file that it does not have, or that wants a login.
+bool is_web_page(std::string_view bytes) {
+  constexpr std::array<std::string_view, 2> kStarts{"<!doctype html", "<html"};
+  const std::string_view text = without_bom(bytes).substr(0, kTellingBytes);
+  const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  return std::any_of(kStarts.begin(), kStarts.end(), [&](std::string_view start) {
+    return equals_ignoring_case(text.substr(first, start.size()), start);
+  });
 }
 
 /// 3DS: a chunk that holds all others (its mark, its size), and the first of these.
@@ -169,6 +182,10 @@ const ImportFormat* check_foreign_bytes(std::string_view bytes, std::string_view
     throw FormatError(
         name, "",
         std::string(foreign.what) + std::string(foreign.remedy) + std::string(foreign.tool));
+  }
+  if (is_web_page(bytes)) {
+    throw FormatError(name, "",
+                      "is a web page" + std::string(kNoModel) + "; download the file anew");
   }
   // Eighty columns a line, of which the seventy-third names the section: S is the first.
   constexpr std::size_t kIgesSection = 72;

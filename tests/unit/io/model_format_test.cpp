@@ -112,5 +112,20 @@ TEST(ModelFormat, RefusesBytesThatContradictAFormatWithASignature) {
   EXPECT_THAT(error_text("glTX....", "a.glb"), HasSubstr("expected the letters glTF"));
 }
 
+TEST(ModelFormat, RefusesWhatWasFetchedInPlaceOfAModel) {
+  const std::string pointer =
+      "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
+  const std::string page = "\n<!doctype HTML>\n<html><head><title>Not found</title></head><body>" +
+                           std::string(200, 'x') + "</body></html>\n";
+  for (const char* const name :
+       {"a.obj", "a.stl", "a.glb", "a.ply", "a.3mf", "a.xyz", "a.dae", "a"}) {
+    EXPECT_THAT(error_text(pointer, name),
+                HasSubstr("is a Git LFS pointer in place of the file; fetch it, with git lfs pull"))
+        << name;
+    EXPECT_THAT(error_text(page, name), HasSubstr("is a web page, not a model")) << name;
+    EXPECT_THAT(error_text("<html lang=\"en\">", name), HasSubstr("is a web page")) << name;
+  }
+}
+
 }  // namespace
 }  // namespace vantage::test
