@@ -30,11 +30,11 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
       case ModelFormat::Obj:
         return parse_obj(bytes, name, run, surroundings);
       case ModelFormat::Off:
-        return parse_off(bytes, name, run);
+        return parse_off(bytes, name, run, surroundings);
       case ModelFormat::Ply:
         return parse_ply(bytes, name, run, surroundings);
       case ModelFormat::Stl:
-        return parse_stl(bytes, name, run);
+        return parse_stl(bytes, name, run, surroundings);
       case ModelFormat::Xyz:
       case ModelFormat::Pts:
       case ModelFormat::Pwn:

@@ -9,6 +9,7 @@
 
 #include "vantage/core/error.h"
 
+#include "io/readers.h"
 #include "mesh/copied_polygons.h"
 #include "mesh/extent.h"
 #include "mesh/polygon.h"
@@ -124,6 +125,7 @@ void ModelBuilder::end_polygon() {
   ++model_.polygons;
   model_.quads += count == 4 ? 1 : 0;
   model_.larger_polygons += count > 4 ? 1 : 0;
+  check_counts(corners_.size() - 2 * corner_counts_.size(), 0);  // each polygon has two less
 }
 
 void ModelBuilder::add_triangle(std::uint64_t a, std::uint64_t b, std::uint64_t c, Place place) {
@@ -164,6 +166,12 @@ void ModelBuilder::advance(std::size_t done_bytes, std::size_t all_bytes) {
   if (++ticks_ % kTicksPerReport == 0) {
     run_.advance("read", kShareOfParsing * static_cast<double>(done_bytes) /
                              static_cast<double>(std::max<std::size_t>(all_bytes, 1)));
+  }
+}
+
+void ModelBuilder::check_counts(std::size_t faces, std::size_t points) const {
+  if (is_beyond_limit(faces, points, most_faces_)) {
+    fail(too_many_faces(most_faces_, faces <= most_faces_));
   }
 }
 

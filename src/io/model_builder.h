@@ -102,6 +102,13 @@ class ModelBuilder {
   /// Reports progress now and then. \throw Cancelled
   void advance(std::size_t done_bytes, std::size_t all_bytes);
 
+  /// From here on a model that has more faces is refused as soon as it has them. \param most see
+  /// ReadOptions::max_faces.
+  void limit_faces(std::size_t most) { most_faces_ = most; }
+
+  /// \throw FormatError if a model of that many is refused; call before they are read.
+  void check_counts(std::size_t faces, std::size_t points) const;
+
   [[noreturn]] void fail(Place place, std::string_view problem) const;
   [[noreturn]] void fail(std::string_view problem) const;
 
@@ -162,6 +169,7 @@ class ModelBuilder {
   std::vector<MaterialStart> material_starts_{};
   std::vector<std::uint32_t> corner_uvs_{};  ///< Beside corners_, if they have their own.
   std::size_t ticks_ = 0;
+  std::size_t most_faces_ = 0;  ///< 0: any number.
 };
 
 /// sRGB byte of a value in [0, 1]; outside values are clamped, NaN is 0.

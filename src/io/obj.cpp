@@ -40,6 +40,7 @@ class ObjReader {
         size_(bytes.size()),
         builder_(ModelFormat::Obj, name, run, 1),
         materials_(surroundings, builder_) {
+    builder_.limit_faces(surroundings.options.max_faces);
     if (surroundings.options.appearance) {
       builder_.keep_appearance(/*of_vertices=*/false);
     }

@@ -29,8 +29,11 @@ bool take_prefix(std::string_view& word, std::string_view prefix) {
 
 class OffReader {
  public:
-  OffReader(std::string_view bytes, std::string_view name, const RunContext& run)
-      : bytes_(without_bom(bytes)), cursor_(bytes_), builder_(ModelFormat::Off, name, run, 0) {}
+  OffReader(std::string_view bytes, std::string_view name, const RunContext& run,
+            const Surroundings& surroundings)
+      : bytes_(without_bom(bytes)), cursor_(bytes_), builder_(ModelFormat::Off, name, run, 0) {
+    builder_.limit_faces(surroundings.options.max_faces);
+  }
 
   /// \param may_be_by_line false: numbers stand on any lines.
   Model read(bool may_be_by_line) {
@@ -114,6 +117,7 @@ class OffReader {
     }
     points_ = static_cast<std::size_t>(points);
     faces_ = static_cast<std::size_t>(faces);
+    builder_.check_counts(faces_, points_);
     builder_.reserve_points(points_);
   }
 
@@ -270,10 +274,10 @@ class OffReader {
 
 /// The model if its numbers, wherever they stand, are just as many as declared.
 std::optional<Model> read_in_free_form(std::string_view bytes, std::string_view name,
-                                       const RunContext& run) {
+                                       const RunContext& run, const Surroundings& surroundings) {
   try {
     const RunContext quiet = run.quiet();  // progress has been reported already
-    OffReader reader(bytes, name, quiet);
+    OffReader reader(bytes, name, quiet, surroundings);
     Model model = reader.read(/*may_be_by_line=*/false);
     return reader.has_rest() ? std::nullopt : std::optional(std::move(model));
   } catch (const FormatError&) {
@@ -332,18 +336,21 @@ void add_off_point(ModelBuilder& builder, const OffLayout& layout, const double*
   builder.add_point(point / numbers[3], place);
 }
 
-Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run) {
+Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings) {
   // A vertex may be broken over lines though there are enough of them for all.
-  OffReader reader(bytes, name, run);
+  OffReader reader(bytes, name, run, surroundings);
   try {
     Model model = reader.read(/*may_be_by_line=*/true);
     const bool fits = model.skipped_faces == 0 && !reader.has_rest();
-    std::optional<Model> free_form =
-        reader.is_by_line() && !fits ? read_in_free_form(bytes, name, run) : std::optional<Model>();
+    std::optional<Model> free_form = reader.is_by_line() && !fits
+                                         ? read_in_free_form(bytes, name, run, surroundings)
+                                         : std::optional<Model>();
     return free_form && free_form->skipped_faces == 0 ? std::move(*free_form) : std::move(model);
   } catch (const FormatError&) {
-    std::optional<Model> model =
-        reader.is_by_line() ? read_in_free_form(bytes, name, run) : std::optional<Model>();
+    std::optional<Model> model = reader.is_by_line()
+                                     ? read_in_free_form(bytes, name, run, surroundings)
+                                     : std::optional<Model>();
     if (!model) {
       throw;
     }

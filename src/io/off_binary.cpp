@@ -89,6 +89,7 @@ void read_binary_off(std::string_view bytes, std::size_t start, const OffLayout&
   }
   const std::size_t points = read_count(words, builder, "vertices", point_words);
   const std::size_t faces = read_count(words, builder, "faces", 1);
+  builder.check_counts(faces, points);
   words.skip(1);  // number of edges, which nobody uses
   for (std::size_t v = 0; v < points; ++v) {
     const Place place = words.place();

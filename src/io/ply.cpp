@@ -48,6 +48,7 @@ class BodyReader {
           return element.kind != PlyElement::Kind::Vertex &&
                  element.kind != PlyElement::Kind::Other && element.count > 0;
         });
+    check_limit(header);
     for (const PlyElement& element : header.elements) {
       check_count(element);
       switch (element.properties.empty() ? PlyElement::Kind::Other : element.kind) {
@@ -73,7 +74,20 @@ class BodyReader {
   [[nodiscard]] std::size_t surplus() const { return source_.surplus(); }
 
  private:
-  void check_count(const PlyElement& element) {
+  /// Ends the reading before it begins if the header declares more than may be read.
+  void check_limit(const PlyHeader& header) const {
+    std::size_t faces = 0;
+    std::size_t points = 0;
+    for (const PlyElement& element : header.elements) {
+      check_count(element);
+      const auto count = static_cast<std::size_t>(element.count);
+      faces += element.kind == PlyElement::Kind::Face ? count : 0;
+      points += element.kind == PlyElement::Kind::Vertex ? count : 0;
+    }
+    builder_.check_counts(faces, points);
+  }
+
+  void check_count(const PlyElement& element) const {
     std::size_t least = 0;
     for (const PlyProperty& property : element.properties) {
       least += Source::least_bytes(property.is_list ? property.count_type : property.type);
@@ -341,6 +355,7 @@ class BodyReader {
 Model read_text(std::string_view bytes, std::string_view name, const RunContext& run,
                 const Surroundings& surroundings, PlyTextSource::Rows rows, std::size_t& surplus) {
   ModelBuilder builder(ModelFormat::Ply, name, run, 0);
+  builder.limit_faces(surroundings.options.max_faces);
   const PlyHeader header = read_ply_header(bytes, builder);
   PlyTextures textures(header, surroundings, builder);
   BodyReader reader(PlyTextSource(bytes, header, builder, rows), builder, textures, bytes.size());
@@ -389,6 +404,7 @@ Model parse_ply(std::string_view bytes, std::string_view name, const RunContext&
                 const Surroundings& surroundings) {
   bytes = without_bom(bytes);
   ModelBuilder builder(ModelFormat::Ply, name, run, 0);
+  builder.limit_faces(surroundings.options.max_faces);
   const PlyHeader header = read_ply_header(bytes, builder);
   if (header.encoding == PlyEncoding::Ascii) {
     return read_text(bytes, name, run, surroundings);

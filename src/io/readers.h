@@ -12,7 +12,8 @@
 #include "vantage/io/model.h"
 
 /// \file
-/// One reader per format, from bytes. Each throws FormatError or Cancelled and nothing else.
+/// One reader per format, from bytes. Each throws FormatError or Cancelled, parse_gltf() also what its
+/// BufferSource throws.
 
 namespace vantage {
 
@@ -42,20 +43,22 @@ struct Surroundings {
   SideFileCheck has_side_file{};  ///< Empty: there are none.
 };
 
-/// Wavefront OBJ: v (with colours), f, g, o, and if materials are wanted vt, usemtl and mtllib; the
+/// Wavefront OBJ: v (with colours), vt, f, g, o, and if materials are wanted usemtl and mtllib; the
 /// rest does not shape the surface and is passed over.
 Model parse_obj(std::string_view bytes, std::string_view name, const RunContext& run,
                 const Surroundings& surroundings);
 
 /// Geomview OFF with any of the prefixes ST C N 4 n, text or binary.
-Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run);
+Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings);
 
 /// Stanford PLY, ascii or binary of either byte order; textures as MeshLab names them, if wanted.
 Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run,
                 const Surroundings& surroundings);
 
 /// STL, text or binary, told apart by size and content.
-Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run);
+Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings);
 
 /// Point Cloud Data 0.5 to 0.7: ascii, binary or binary_compressed; x, y, z of whatever fields.
 /// \param max_points see ReadOptions::max_faces.

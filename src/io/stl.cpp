@@ -172,6 +172,9 @@ void read_binary(std::string_view bytes, ModelBuilder& builder) {
   }
   const std::uint64_t held = held_stl_triangles(bytes);
   const std::uint64_t declared = stl_triangle_count(bytes);
+  if (declared > held && has_text_begin(bytes)) {  // of text, the count has four letters
+    builder.fail("is text that does not start with the word solid, as a text STL does");
+  }
   const std::string counts = "the file declares " + std::to_string(declared) +
                              " triangles but has room for " + std::to_string(held);
   if (declared > held) {
@@ -183,6 +186,7 @@ void read_binary(std::string_view bytes, ModelBuilder& builder) {
         "holds neither faces nor points: the file declares 0 triangles and has room for 0");
   }
   const std::size_t triangles = stl_triangles_to_read(bytes);
+  builder.check_counts(triangles, 0);
   if (triangles != declared) {
     builder.note(counts + ", all of which were read");
   }
@@ -227,8 +231,10 @@ void join_equal_positions(TriMesh& mesh, const RunContext& run) {
 
 }  // namespace
 
-Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run) {
+Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings) {
   ModelBuilder builder(ModelFormat::Stl, name, run, 0);
+  builder.limit_faces(surroundings.options.max_faces);
   if (is_text_stl(bytes)) {
     TextReader(bytes, builder).read();
   } else {

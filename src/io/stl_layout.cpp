@@ -43,9 +43,13 @@ bool has_binary_stl_size(std::string_view bytes) {
          bytes.size() - kStlPreamble == stl_triangle_count(bytes) * kStlTriangle;
 }
 
-bool is_text_stl(std::string_view bytes) {
+bool has_text_begin(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, kTold);
-  if (has_binary_stl_size(bytes) || std::any_of(head.begin(), head.end(), is_control)) {
+  return std::none_of(head.begin(), head.end(), is_control);
+}
+
+bool is_text_stl(std::string_view bytes) {
+  if (has_binary_stl_size(bytes) || !has_text_begin(bytes)) {
     return false;
   }
   TextCursor cursor(without_bom(bytes));

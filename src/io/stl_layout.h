@@ -27,6 +27,9 @@ std::size_t stl_triangles_to_read(std::string_view bytes);
 /// Whether the bytes are a binary STL by their size: 84 bytes and 50 for each declared triangle.
 bool has_binary_stl_size(std::string_view bytes);
 
+/// Whether the first bytes are text: no zeros or other control characters.
+bool has_text_begin(std::string_view bytes);
+
 /// Whether the bytes are a text STL: the first word, behind comments, is `solid`, and what follows is
 /// text. A binary header may begin with that word too, but zeros or other control characters follow
 /// soon, also where the file is cut short.

@@ -213,5 +213,15 @@ TEST(StlColours, AreNoted) {
   EXPECT_THAT(notes(triangle("plain", 0x1F, 0)), testing::IsEmpty());
 }
 
+TEST(Stl, OtherTextIsCalledTextAndNotABinaryFileThatIsCut) {
+  const std::string text(200, 'x');
+  EXPECT_THAT(error_text(text, "a.stl"),
+              testing::HasSubstr("is text that does not start with the word"
+                                 " solid, as a text STL does"));
+  std::string binary(84, '\0');
+  binary[80] = 9;
+  EXPECT_THAT(error_text(binary, "a.stl"), testing::HasSubstr("it may be cut short"));
+}
+
 }  // namespace
 }  // namespace vantage::test
