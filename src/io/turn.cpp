@@ -85,8 +85,8 @@ std::string turned_text(std::string_view bytes, std::string_view name, const Axi
       result += line;
     } else if (words.size() < first + 3 || words.back() == "\\") {
       throw FormatError(std::string(name), "line " + std::to_string(number),
-                        "the coordinates do not all stand on one line; write the file anew with "
-                        "another program");
+                        "the coordinates do not all stand on one line, and so are not turned in "
+                        "place; write a .ply");
     } else {
       result += turned_line(line, words, first, turn);
     }
@@ -128,7 +128,9 @@ std::string turned_obj(std::string_view bytes, std::string_view name, const Axis
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     std::string_view keyword = words.empty() ? std::string_view() : words[0];
     keyword.remove_prefix(keyword.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
-    return keyword == "v" || keyword == "vn" ? std::size_t{1} : std::size_t{0};
+    // A normal of fewer numbers is one for no reader, unless the next line has the rest.
+    const bool is_short = keyword == "vn" && words.size() < 4 && !words.back().ends_with('\\');
+    return (keyword == "v" || keyword == "vn") && !is_short ? std::size_t{1} : std::size_t{0};
   });
 }
 

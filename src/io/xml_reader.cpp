@@ -147,7 +147,8 @@ void XmlReader::on_namespace(void* reader, const XML_Char* prefix, const XML_Cha
 void XmlReader::on_document_type(void* reader, const XML_Char* /*name*/, const XML_Char* /*system*/,
                                  const XML_Char* /*publisher*/, int /*has_subset*/) {
   auto& self = *static_cast<XmlReader*>(reader);
-  self.guarded([&] { self.fail("has a document type, which no 3D model needs"); });
+  self.guarded(
+      [&] { self.fail("has a document type, which no 3D model needs; remove <!DOCTYPE …>"); });
 }
 
 void XmlReader::fail(const std::string& problem) const {

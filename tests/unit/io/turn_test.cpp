@@ -159,5 +159,24 @@ TEST(TurnedBytes, OfAGltfTurnEachNodeOnceHoweverManyScenesShowIt) {
   }
 }
 
+TEST(TurnedBytes, OfAnObjWithANormalOfTwoNumbersKeepIt) {
+  const std::string after =
+      turned("v 1 2 3\nv 4 5 6\nv 7 8 10\nvn 0 0\nf 1 2 3\n", "a.obj", ModelFormat::Obj);
+  EXPECT_THAT(after, testing::HasSubstr("\nvn 0 0\n"));
+  EXPECT_EQ(parse_model(after, "a.obj").mesh.positions.at(0), Vec3(1, 3, -2));
+}
+
+TEST(TurnedBytes, OfAnObjWithContinuedLinesAreRefusedWithARemedy) {
+  for (const std::string line :
+       {"v 1 2 \\\n3\n", "v 1 2 3\nvn 0 0 \\\n1\n", "v 1 2 3\nvn 0 0\\\n 1\n"}) {
+    try {
+      (void)turned(line + "v 4 5 6\nv 7 8 10\nf 1 2 3\n", "a.obj", ModelFormat::Obj);
+      FAIL() << line;
+    } catch (const FormatError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("write a .ply")) << line;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage::test
