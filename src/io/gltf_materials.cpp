@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "io/gltf_json.h"
@@ -117,7 +116,7 @@ class MaterialReader {
  public:
   MaterialReader(const Json& root, const GltfDocument& document, const Surroundings& surroundings,
                  ModelBuilder& builder)
-      : root_(root), document_(document), loader_(surroundings, builder) {}
+      : root_(root), document_(document), loader_(surroundings, builder), textures_(loader_) {}
 
   void read(ModelBuilder& builder) {
     std::vector<Material> materials;
@@ -126,7 +125,7 @@ class MaterialReader {
       materials.push_back(material(list[m]));
     }
     loader_.finish();
-    builder.set_materials(std::move(materials), std::move(textures_));
+    builder.set_materials(std::move(materials), textures_.take());
   }
 
  private:
@@ -176,7 +175,7 @@ class MaterialReader {
     result.emission = emission;
   }
 
-  /// Index among the textures that were read; a texture is an image and how it is wrapped.
+  /// Index among the textures that were read.
   std::optional<std::uint32_t> texture(const Json& index) {
     const Json& source = item(root_, "textures", index);
     if (!source.is_object()) {
@@ -190,17 +189,14 @@ class MaterialReader {
     }
     const Json& sampler = item(root_, "samplers", member(source, "sampler"));
     constexpr double kNearest = 9728.0;
-    const TextureWrap wrap_u = wrap_of(sampler, "wrapS");
-    const TextureWrap wrap_v = wrap_of(sampler, "wrapT");
-    const bool nearest = number(member(sampler, "magFilter"), 0.0) == kNearest;
-    const auto [known, is_new] =
-        known_.try_emplace({&item(root_, "images", image_index), wrap_u, wrap_v, nearest});
-    std::optional<Image> image = is_new ? picture(image_index) : std::nullopt;
-    if (image) {
-      known->second = static_cast<std::uint32_t>(textures_.size());
-      textures_.push_back({std::move(*image), wrap_u, wrap_v, nearest});
-    }
-    return known->second;
+    Texture way;
+    way.wrap_u = wrap_of(sampler, "wrapS");
+    way.wrap_v = wrap_of(sampler, "wrapT");
+    way.nearest = number(member(sampler, "magFilter"), 0.0) == kNearest;
+    const std::size_t number_of_image = item(root_, "images", image_index).is_object()
+                                            ? image_index.get<std::size_t>()
+                                            : std::numeric_limits<std::size_t>::max();
+    return textures_.add(number_of_image, way, [&] { return picture(image_index); });
   }
 
   /// Whether the only image of a texture is one that an extension packs; if so, a note says it once.
@@ -268,10 +264,7 @@ class MaterialReader {
   const Json& root_;
   const GltfDocument& document_;
   TextureLoader loader_;
-  std::vector<Texture> textures_{};
-  /// By image and how it is sampled.
-  std::map<std::tuple<const Json*, TextureWrap, TextureWrap, bool>, std::optional<std::uint32_t>>
-      known_{};
+  TextureList textures_;
   std::set<const Json*> packed_{};   ///< Images that were complained of.
   std::set<const char*> useless_{};  ///< Where bytes of buffers begin that gave no picture.
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -88,6 +87,7 @@ class StreamReader {
         format_(format),
         wants_appearance_(surroundings.options.appearance),
         loader_(surroundings, builder_),
+        textures_(loader_),
         surroundings_(surroundings) {
     if (wants_appearance_) {
       builder_.keep_appearance(/*of_vertices=*/true);
@@ -184,7 +184,8 @@ class StreamReader {
     const TextureWrap wrap_u = wrap_of(record.number<std::uint32_t>());
     const TextureWrap wrap_v = wrap_of(record.number<std::uint32_t>());
     if (wants_appearance_ && picture < pictures_.size()) {
-      material.texture = texture(picture, wrap_u, wrap_v);
+      material.texture = textures_.add(picture, {{}, wrap_u, wrap_v, false},
+                                       [&] { return image_of(pictures_[picture]); });
     }
     // Places count from the bottom left corner here, and from the top left one in a Material.
     material.uv_transform = {1.0, 0.0, 0.0, 0.0, -1.0, 1.0};
@@ -193,19 +194,6 @@ class StreamReader {
 
   static TextureWrap wrap_of(std::uint32_t word) {
     return word == 1 ? TextureWrap::Mirror : word == 2 ? TextureWrap::Clamp : TextureWrap::Repeat;
-  }
-
-  std::optional<std::uint32_t> texture(std::uint32_t picture, TextureWrap wrap_u,
-                                       TextureWrap wrap_v) {
-    const auto [known, is_new] = textures_of_.try_emplace({picture, wrap_u, wrap_v});
-    if (is_new) {
-      std::optional<Image> image = image_of(pictures_[picture]);
-      if (image) {
-        known->second = static_cast<std::uint32_t>(textures_.size());
-        textures_.push_back({std::move(*image), wrap_u, wrap_v, false});
-      }
-    }
-    return known->second;
   }
 
   struct Picture {
@@ -321,7 +309,7 @@ class StreamReader {
     }
     loader_.finish();
     if (wants_appearance_) {
-      builder_.set_materials(std::move(materials_), std::move(textures_));
+      builder_.set_materials(std::move(materials_), textures_.take());
     }
     Model model = builder_.finish();
     model.unit_m = unit_m_;
@@ -335,12 +323,10 @@ class StreamReader {
   const ImportFormat& format_;
   bool wants_appearance_;
   TextureLoader loader_;
+  TextureList textures_;
   const Surroundings& surroundings_;
   std::vector<Picture> pictures_{};
   std::vector<Material> materials_{};
-  std::vector<Texture> textures_{};
-  std::map<std::tuple<std::uint32_t, TextureWrap, TextureWrap>, std::optional<std::uint32_t>>
-      textures_of_{};
   std::uint64_t meshes_ = 0;
   std::size_t notes_ = 0;
   double unit_m_ = 0.0;

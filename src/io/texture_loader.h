@@ -3,10 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "vantage/mesh/appearance.h"
@@ -38,6 +42,10 @@ class TextureLoader {
   /// that gave no picture is not tried again.
   std::optional<Image> beside(const std::string& path);
 
+  /// Whether a picture that was read may be kept once more, to be wrapped otherwise; if so, its pixels count
+  /// as those of another one.
+  bool may_keep_again(std::size_t pixels);
+
   /// Pixels that may still be decoded.
   [[nodiscard]] std::size_t decoded_left() const { return decoded_left_; }
 
@@ -53,7 +61,30 @@ class TextureLoader {
   std::size_t pixels_left_ = kMostTexturePixels;
   std::size_t decoded_left_ = kMostDecodedPixels;
   std::set<std::string> useless_{};  ///< Files that gave no picture.
+  bool has_noted_copies_ = false;
   std::size_t complaints_ = 0;
+};
+
+/// The textures of a model: each is a picture and how it is laid on. A picture is decoded once.
+class TextureList {
+ public:
+  /// \param loader must outlive this.
+  explicit TextureList(TextureLoader& loader) : loader_(loader) {}
+
+  /// Index of the texture; nothing if there is no such picture. One that is too large to be kept in one more
+  /// way has the way of an earlier one.
+  /// \param picture a number of its own. \param way a texture without its image. \param decode gives that.
+  std::optional<std::uint32_t> add(std::size_t picture, Texture way,
+                                   const std::function<std::optional<Image>()>& decode);
+
+  std::vector<Texture> take() { return std::move(textures_); }
+
+ private:
+  using Way = std::tuple<TextureWrap, TextureWrap, bool>;
+  TextureLoader& loader_;
+  std::vector<Texture> textures_{};
+  /// By picture, indices of its textures; none: it cannot be had.
+  std::map<std::size_t, std::map<Way, std::uint32_t>> of_picture_{};
 };
 
 }  // namespace vantage

@@ -225,6 +225,48 @@ TEST(GltfAppearance, AnImageOfManyTexturesIsOneUnlessItIsSampledOtherwise) {
   EXPECT_EQ(a.materials.at(2).texture, 1U);
 }
 
+TEST(GltfAppearance, DecodesAnImageOnceInHoweverManyWaysItIsWrapped) {
+  std::string parts = image_part(R"("uri":"a.png")");
+  const std::string one = R"({"source":0,"sampler":0})";
+  parts.replace(parts.find(one), one.size(), one + R"(,{"source":0})");
+  const std::string two =
+      R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+         {"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}})";
+  int reads = 0;
+  Surroundings surroundings;
+  surroundings.options = kAll;
+  surroundings.side_files = [&](const std::string&) {
+    ++reads;
+    return SideFile{green_png(), ""};
+  };
+  const Appearance a = parse_gltf(gltf(two, parts), "a.gltf", {}, surroundings).appearance;
+  EXPECT_EQ(reads, 1);
+  ASSERT_EQ(a.textures.size(), 2U);
+  EXPECT_EQ(a.textures[1].image.rgba, a.textures[0].image.rgba);
+  EXPECT_EQ(a.textures[1].wrap_u, TextureWrap::Repeat);
+  EXPECT_EQ(a.materials[1].texture, 1U);
+}
+
+TEST(TextureList, APictureThatIsTooLargeForOneMoreWayIsShownInAnEarlierOne) {
+  const RunContext run;
+  ModelBuilder builder(ModelFormat::Gltf, "a.gltf", run, 0);
+  const Surroundings none;
+  TextureLoader loader(none, builder);
+  TextureList list(loader);
+  const auto green = [&] { return loader.embedded(green_png(), "one"); };
+  const Texture clamped{{}, TextureWrap::Clamp, TextureWrap::Clamp, false};
+  const Texture mirrored{{}, TextureWrap::Mirror, TextureWrap::Mirror, false};
+  EXPECT_EQ(list.add(0, {}, green), 0U);
+  EXPECT_EQ(list.add(0, clamped, green), 1U);
+  EXPECT_TRUE(loader.may_keep_again(kMostTexturePixels - 2));  // of two pixels
+  EXPECT_TRUE(list.add(0, mirrored, green).value_or(9) < 2U);
+  EXPECT_EQ(list.add(0, {}, green), 0U);
+  EXPECT_EQ(list.take().size(), 2U);
+  builder.add_point(Vec3::Zero(), {"vertex", 0});
+  builder.add_point(Vec3::UnitX(), {"vertex", 1});
+  EXPECT_THAT(builder.finish().notes, Contains(HasSubstr("wrapped in some of them alone")));
+}
+
 TEST(TextureLoader, CountsThePixelsOfDamagedPicturesToo) {
   constexpr int kSide = 64;
   constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
