@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -126,8 +127,13 @@ void leave_out_hidden(std::vector<PlacedNode>& nodes, StreamWriter& out) {
   }
 }
 
+/// Whether Assimp named a node for which the file has no name.
+bool is_made_up(std::string_view name) {
+  return name.starts_with('<') || name.starts_with("$ColladaAutoName$");
+}
+
 std::string part_name(const aiNode& node, const aiMesh& mesh) {
-  const bool named = node.mName.length > 0 && node.mName.C_Str()[0] != '<' &&
+  const bool named = node.mName.length > 0 && !is_made_up(node.mName.C_Str()) &&
                      (node.mParent != nullptr || mesh.mName.length == 0);
   return named ? node.mName.C_Str() : mesh.mName.C_Str();
 }

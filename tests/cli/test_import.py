@@ -87,6 +87,10 @@ class Import(ProgramTest):
                 "<instance", "<scale>0.001 0.001 0.001</scale><instance"))), wanted):
             self.assertAlmostEqual(found, side, delta=1e-6)
 
+    def test_a_node_without_a_name_has_no_made_up_one(self):
+        self.write("a.dae", collada('<node id="k"><instance_geometry url="#g"/></node>'))
+        self.assertEqual([part["name"] for part in self.info(self.dir / "a.dae")["parts"]], ["g"])
+
     def test_a_skinned_mesh_is_where_its_joints_hold_it(self):
         one = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
         skin = ('<library_controllers><controller id="c"><skin source="#g"><bind_shape_matrix>10 0 0 0 0 10 0 0 '
