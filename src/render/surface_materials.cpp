@@ -50,30 +50,50 @@ void check_fit(const Appearance& appearance, const TriMesh& mesh) {
   }
 }
 
+/// The opacity of its texture from which on a material is solid: 0 if it is everywhere, none if its
+/// opacity is not cut.
+std::optional<float> texture_cutoff(const Material& material) {
+  if (material.alpha == AlphaMode::Blend) {
+    return std::nullopt;
+  }
+  if (material.alpha == AlphaMode::Opaque || material.alpha_cutoff <= 0.0) {
+    return 0.0F;
+  }
+  return static_cast<float>(material.alpha_cutoff / material.opacity);
+}
+
+/// How nearly solid or empty counts as it: more than what sums of texels are rounded by.
+constexpr double kRounding = 1e-5;
+
 }  // namespace
 
 SurfaceMaterials::SurfaceMaterials(const Appearance& appearance, const TriMesh& mesh)
     : appearance_(&appearance), mesh_(&mesh) {
   check_fit(appearance, mesh);
-  pyramids_.resize(appearance.textures.size());
-  const auto make = [&](std::uint32_t texture, bool is_opaque) {
-    Pyramids& pyramids = pyramids_[texture];
-    std::optional<TexturePyramid>& one = is_opaque ? pyramids.opaque : pyramids.with_opacity;
-    if (!one) {
-      one.emplace(appearance.textures[texture], is_opaque);
-    }
-  };
   for (const Material& material : appearance.materials) {
+    Places places;
     if (material.texture) {
-      make(*material.texture, material.alpha == AlphaMode::Opaque);
+      places.colour = share(*material.texture, texture_cutoff(material));
     }
     if (material.emission_texture) {
-      make(*material.emission_texture, true);
+      places.emission = share(*material.emission_texture, 0.0F);
     }
+    places_.push_back(places);
   }
   has_openings_ =
       std::any_of(appearance.materials.begin(), appearance.materials.end(),
                   [](const Material& material) { return material.alpha != AlphaMode::Opaque; });
+}
+
+std::size_t SurfaceMaterials::share(std::uint32_t texture, std::optional<float> cutoff) {
+  const auto same = std::find_if(shared_.begin(), shared_.end(), [&](const Shared& shared) {
+    return shared.texture == texture && shared.cutoff == cutoff;
+  });
+  const auto place = static_cast<std::size_t>(same - shared_.begin());
+  if (same == shared_.end()) {
+    shared_.push_back({texture, cutoff, TexturePyramid(appearance_->textures[texture], cutoff)});
+  }
+  return place;
 }
 
 Texel SurfaceMaterials::texel(const TexturePyramid& pyramid, const Material& material,
@@ -119,25 +139,24 @@ SurfaceMaterials::Shown SurfaceMaterials::at(std::uint32_t face, float u, float 
   shown.has_material = true;
   shown.unlit = material.unlit;
   shown.colour = {material.colour[0], material.colour[1], material.colour[2]};
-  double opacity = material.opacity;
+  std::optional<double> of_texture;
   if (material.texture) {
-    const Pyramids& pyramids = pyramids_[*material.texture];
-    const auto& pyramid =
-        material.alpha == AlphaMode::Opaque ? pyramids.opaque : pyramids.with_opacity;
-    const Texel texel = this->texel(*pyramid, material, face, u, v, spacing);
+    const TexturePyramid& pyramid = shared_[places_[index].colour].pyramid;
+    const Texel texel = this->texel(pyramid, material, face, u, v, spacing);
     shown.colour = shown.colour.cwiseProduct(texel.colour.cast<double>());
-    opacity *= static_cast<double>(texel.opacity);
+    of_texture = static_cast<double>(texel.opacity);
   }
   shown.emission = {material.emission[0], material.emission[1], material.emission[2]};
   if (material.emission_texture) {
-    const auto& pyramid = pyramids_[*material.emission_texture].opaque;
+    const TexturePyramid& pyramid = shared_[places_[index].emission].pyramid;
     shown.emission = shown.emission.cwiseProduct(
-        texel(*pyramid, material, face, u, v, spacing).colour.cast<double>());
+        texel(pyramid, material, face, u, v, spacing).colour.cast<double>());
   }
   if (material.alpha == AlphaMode::Mask) {
-    shown.opacity = opacity >= material.alpha_cutoff ? 1.0 : 0.0;
+    const double solid = of_texture.value_or(material.opacity >= material.alpha_cutoff ? 1.0 : 0.0);
+    shown.opacity = solid < kRounding ? 0.0 : solid > 1.0 - kRounding ? 1.0 : solid;
   } else if (material.alpha == AlphaMode::Blend) {
-    shown.opacity = opacity;
+    shown.opacity = material.opacity * of_texture.value_or(1.0);
   }
   return shown;
 }

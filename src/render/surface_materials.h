@@ -22,7 +22,7 @@ class SurfaceMaterials {
   struct Shown {
     Vec3 colour = Vec3::Ones();    ///< Linear, to be multiplied by the vertices' colour.
     Vec3 emission = Vec3::Zero();  ///< Linear, to be added to what it reflects.
-    double opacity = 1.0;          ///< In [0, 1]; exactly 0 in a hole.
+    double opacity = 1.0;          ///< In [0, 1]; exactly 0 in a hole; the solid share of several.
     bool unlit = false;            ///< No light falls on it.
     bool has_material = false;     ///< Else white.
   };
@@ -37,12 +37,21 @@ class SurfaceMaterials {
   [[nodiscard]] bool has_openings() const { return has_openings_; }
 
  private:
-  /// A texture's pyramids: materials that share it may mean its opacity or not.
-  struct Pyramids {
-    std::optional<TexturePyramid> opaque{};
-    std::optional<TexturePyramid> with_opacity{};
+  /// A texture as some materials show it: those that share it may mean its opacity or not.
+  struct Shared {
+    std::uint32_t texture;
+    std::optional<float> cutoff;
+    TexturePyramid pyramid;
   };
 
+  /// Places in `shared_` of a material's textures, if it has them.
+  struct Places {
+    std::size_t colour = 0;
+    std::size_t emission = 0;
+  };
+
+  /// Place of a texture's pyramid, which is made if it is new.
+  std::size_t share(std::uint32_t texture, std::optional<float> cutoff);
   /// Of a texture of the face's material.
   [[nodiscard]] Texel texel(const TexturePyramid& pyramid, const Material& material,
                             std::uint32_t face, float u, float v, double spacing) const;
@@ -50,7 +59,8 @@ class SurfaceMaterials {
   const Appearance* appearance_;
   const TriMesh* mesh_;
   bool has_openings_ = false;
-  std::vector<Pyramids> pyramids_{};  ///< Of each texture those that are needed.
+  std::vector<Shared> shared_{};
+  std::vector<Places> places_{};  ///< Of each material.
 };
 
 }  // namespace vantage

@@ -11,6 +11,8 @@ namespace vantage {
 namespace {
 
 constexpr float kFull = 65535.0F;
+/// Rounding of sums of texels: far less than a step of 8 bits.
+constexpr float kRounding = 1e-5F;
 
 /// Linear light of each sRGB byte.
 const std::array<float, 256>& linear_table() {
@@ -44,8 +46,8 @@ float near_origin(float u, TextureWrap wrap) {
 
 }  // namespace
 
-TexturePyramid::TexturePyramid(const Texture& texture, bool opaque)
-    : texture_(&texture), opaque_(opaque) {
+TexturePyramid::TexturePyramid(const Texture& texture, std::optional<float> cutoff)
+    : texture_(&texture), cutoff_(cutoff) {
   while (halves_.empty() ? std::max(width(), height()) > 1
                          : std::max(halves_.back().width, halves_.back().height) > 1) {
     add_half();
@@ -57,7 +59,7 @@ std::array<std::uint16_t, 4> TexturePyramid::mean(std::size_t level, int x0, int
   Premultiplied sum{};
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
-      const Premultiplied texel = fetch(level, x, y);
+      const Premultiplied texel = level == 0 ? cut(fetch(0, x, y)) : fetch(level, x, y);
       for (std::size_t c = 0; c < 4; ++c) {
         sum[c] += texel[c];
       }
@@ -87,11 +89,23 @@ void TexturePyramid::add_half() {
   halves_.push_back(std::move(half));
 }
 
+TexturePyramid::Premultiplied TexturePyramid::cut(Premultiplied seen) const {
+  if (!cutoff_ || is_opaque()) {
+    return seen;
+  }
+  if (seen[3] < *cutoff_ - kRounding) {
+    return {};
+  }
+  // A cutoff of next to nothing lets pass what has no colour: it stays black.
+  const float alpha = std::max(seen[3], kRounding);
+  return {seen[0] / alpha, seen[1] / alpha, seen[2] / alpha, 1.0F};
+}
+
 TexturePyramid::Premultiplied TexturePyramid::fetch(std::size_t level, int x, int y) const {
   if (level == 0) {
     const std::uint8_t* pixel = texture_->image.pixel(x, y);
     const std::array<float, 256>& table = linear_table();
-    const float alpha = opaque_ ? 1.0F : static_cast<float>(pixel[3]) / 255.0F;
+    const float alpha = is_opaque() ? 1.0F : static_cast<float>(pixel[3]) / 255.0F;
     return {alpha * table[pixel[0]], alpha * table[pixel[1]], alpha * table[pixel[2]], alpha};
   }
   const Level& half = halves_[level - 1];
@@ -146,6 +160,7 @@ Texel TexturePyramid::at(float u, float v, float level) const {
   const auto low = static_cast<std::size_t>(height);
   const float share = height - static_cast<float>(low);
   Premultiplied seen = bilinear(low, u, v, texture_->nearest && height == 0.0F);
+  seen = low == 0 ? cut(seen) : seen;
   if (share > 0.0F) {
     const Premultiplied coarser = bilinear(low + 1, u, v, false);
     for (std::size_t c = 0; c < 4; ++c) {

@@ -110,6 +110,45 @@ TEST(SurfaceMaterials, HolesShowWhatIsBehind) {
   EXPECT_THAT(pixel_of(wall, 8, 8), ElementsAre(kOn, kOn, kOn, kOn));
 }
 
+TEST(SurfaceMaterials, AFenceDoesNotVanishInTheDistance) {
+  // Bars of 3 of 8 texels, less than any cutoff of their mean would let pass; what is between them is
+  // a little opaque, and green.
+  Square square({});
+  constexpr int kFenceSide = 64;
+  for (int i = 0; i < kFenceSide * kFenceSide; ++i) {
+    const bool is_bar = i % 8 < 3;
+    const std::array<std::uint8_t, 4> texel = is_bar ? std::array<std::uint8_t, 4>{kOn, 0, 0, 200}
+                                                     : std::array<std::uint8_t, 4>{0, kOn, 0, 60};
+    square.appearance.textures[0].image.rgba.insert(square.appearance.textures[0].image.rgba.end(),
+                                                    texel.begin(), texel.end());
+  }
+  square.appearance.textures[0].image.width = kFenceSide;
+  square.appearance.textures[0].image.height = kFenceSide;
+  Material& material = square.appearance.materials[0];
+  material.alpha = AlphaMode::Mask;
+  material.alpha_cutoff = 0.3;  // between the two, 60 and 200 times 0.6 of 255
+  material.opacity = 0.6;
+  for (const double height : {1.0, 2.0, 4.0, 8.0, 16.0}) {  // 1/2 to 1/32 of a pixel a texel
+    const Image image =
+        render_painted(square.mesh, before_square(height), {{}, {}, &square.appearance}, small());
+    double opacity = 0.0;
+    int green = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+      opacity += image.rgba[i + 3] / 255.0;
+      green = std::max<int>(green, image.rgba[i + 1]);
+    }
+    EXPECT_NEAR(opacity * height * height / (32 * 32), 3.0 / 8.0, 0.02) << height;
+    EXPECT_EQ(green, 0) << height;
+  }
+}
+
+TEST(SurfaceMaterials, ACutoffOfNothingLeavesNoHoles) {
+  Square square({kOn, kOn, kOn, 0, kOn, kOn, kOn, 0, kOn, kOn, kOn, 0, kOn, kOn, kOn, kOn});
+  square.appearance.materials[0].alpha = AlphaMode::Mask;
+  square.appearance.materials[0].alpha_cutoff = 0.0;
+  EXPECT_THAT(pixel_of(picture(square, small()), 8, 8), ElementsAre(kOn, kOn, kOn, kOn));
+}
+
 TEST(SurfaceMaterials, GlassMixesLightWithWhatIsBehind) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.materials[0].alpha = AlphaMode::Blend;
