@@ -69,7 +69,10 @@ SampleNeed FragmentRows::need_of_paint(int x, int y, std::size_t paint,
                                        SampleNeed of_surface) const {
   const PaintFragment& own = at(x, y, paint);
   const bool is_hit = at(x, y).hit;
-  const float most = kAlikeColour * (own.albedo.maxCoeff() + kDarkestColour);
+  const float most = kAlikeColour * ((own.albedo + own.emission).maxCoeff() + kDarkestColour);
+  const auto differs = [most](const Vec3f& a, const Vec3f& b) {
+    return (a - b).cwiseAbs().maxCoeff() > most;
+  };
   SampleNeed need = own.tube || (is_hit && !own.opaque) ? SampleNeed::Few : SampleNeed::One;
   for (const auto& [right, down] : kBeside) {
     if (!has(x + right, y + down)) {
@@ -79,8 +82,8 @@ SampleNeed FragmentRows::need_of_paint(int x, int y, std::size_t paint,
     if (other.tube != own.tube) {
       return SampleNeed::All;
     }
-    if (is_hit &&
-        (other.opaque != own.opaque || (own.albedo - other.albedo).cwiseAbs().maxCoeff() > most)) {
+    if (is_hit && (other.opaque != own.opaque || differs(own.albedo, other.albedo) ||
+                   differs(own.emission, other.emission))) {
       need = SampleNeed::Few;
     }
   }
@@ -93,6 +96,10 @@ Vec3f FragmentRows::mixed_normal(int x, int y) const {
 
 Vec3f FragmentRows::mixed_albedo(int x, int y, std::size_t paint) const {
   return mixed(*this, x, y, [this, paint](int i, int j) { return at(i, j, paint).albedo; });
+}
+
+Vec3f FragmentRows::mixed_emission(int x, int y, std::size_t paint) const {
+  return mixed(*this, x, y, [this, paint](int i, int j) { return at(i, j, paint).emission; });
 }
 
 bool FragmentRows::may_break(int x, int y, float tolerance) const {

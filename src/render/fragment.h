@@ -19,8 +19,9 @@ struct Fragment {
 
 /// What it shows of one paint.
 struct PaintFragment {
-  Vec3f albedo = Vec3f::Zero();  ///< Linear.
-  bool opaque = false;           ///< A lit surface that nothing shines through.
+  Vec3f albedo = Vec3f::Zero();    ///< Linear.
+  Vec3f emission = Vec3f::Zero();  ///< Linear; added to what it reflects.
+  bool opaque = false;             ///< A lit surface that nothing shines through.
   bool tube = false;
 };
 
@@ -68,11 +69,12 @@ struct FragmentRows {
   [[nodiscard]] SampleNeed need_of_paint(int x, int y, std::size_t paint,
                                          SampleNeed of_surface) const;
 
-  /// Normal and albedo of a pixel that needs one sample, as the tent filter of all samples would
+  /// Normal, albedo and emission of a pixel that needs one sample, as the tent filter of all samples would
   /// mix them with those around it.
   /// \pre need() is one sample.
   [[nodiscard]] Vec3f mixed_normal(int x, int y) const;
   [[nodiscard]] Vec3f mixed_albedo(int x, int y, std::size_t paint) const;
+  [[nodiscard]] Vec3f mixed_emission(int x, int y, std::size_t paint) const;
 
   /// Whether the surface may end or step back in a pixel or beside it.
   /// \param tolerance distance from a plane that is no step.

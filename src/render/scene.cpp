@@ -250,7 +250,8 @@ PaintFragment Scene::paint_fragment(const PreparedPaint& paint, const Sample& sa
       paint.tubes() && std::isfinite(paint.tubes()->closest_hit(sample.ray, sample.x, sample.y).t);
   if (sample.hit) {
     const SurfaceMaterials::Shown shown = paint.shown(sample.hit, pixel_);
-    fragment.albedo = (shown.colour + shown.emission).cast<float>();
+    fragment.albedo = shown.colour.cast<float>();
+    fragment.emission = shown.emission.cast<float>();
     fragment.opaque = shown.opacity == 1.0 && !shown.unlit;
   }
   return fragment;

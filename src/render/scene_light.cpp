@@ -54,7 +54,9 @@ Light Scene::plain_light(int x, int y, std::size_t paint, const SceneBand& band,
   if (band.rows.at(x, y).hit) {
     point = point ? point : plain_point(x, y, band);
     point->albedo = band.rows.mixed_albedo(x, y, paint).cast<double>();
-    light.behind(shaded(*point), paints_[paint].tubes() ? translucent_opacity(*point, false) : 1.0);
+    const Vec3 emission = band.rows.mixed_emission(x, y, paint).cast<double>();
+    light.behind(shaded(*point) + emission,
+                 paints_[paint].tubes() ? translucent_opacity(*point, false) : 1.0);
   }
   if (ground_) {
     add_ground(light, rays_->ray(x + 0.5, y + 0.5), x, y);

@@ -203,6 +203,20 @@ TEST(SurfaceMaterials, EmissionEndsAsSmoothlyAsColoursDo) {
   EXPECT_LT(image.pixel(15, 15)[0], image.pixel(10, 15)[0] - 20);
 }
 
+TEST(SurfaceMaterials, EmissionIsNotShadedHoweverManySamplesAPixelTakes) {
+  // An opaque wall takes one sample a pixel, glass several, even if next to nothing shines through.
+  Square square(std::vector<std::uint8_t>(16, kOn));
+  square.appearance.materials[0] = {.colour = {0.0, 0.0, 0.0}, .emission = {0.0, 0.5, 0.0}};
+  const Image one = picture(square, small());
+  square.appearance.materials[0].alpha = AlphaMode::Blend;
+  square.appearance.materials[0].opacity = 0.999;
+  const Image several = picture(square, small());
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(one.pixel(16, 16)[c], several.pixel(16, 16)[c], 1);
+  }
+  EXPECT_GT(one.pixel(16, 16)[1], srgb_of_linear(0.5) - 1);
+}
+
 TEST(SurfaceMaterials, AWallIsSeenThroughFortyPanesOfThinGlass) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.materials[0].alpha = AlphaMode::Blend;
