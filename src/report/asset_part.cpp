@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -71,16 +70,60 @@ void add_faces(const Model& model, const std::vector<std::uint32_t>& faces,
   }
 }
 
-Json material_json(const Material& material) {
+/// A texture as the page shows it.
+struct SentTexture {
+  std::uint32_t texture = 0;
+  bool is_opaque = false;  ///< Its opacity means nothing.
+
+  bool operator==(const SentTexture&) const = default;
+};
+
+SentTexture colours_of(const Material& material) {
+  return {*material.texture, material.alpha == AlphaMode::Opaque};
+}
+
+SentTexture light_of(const Material& material) {
+  return {*material.emission_texture, true};
+}
+
+/// What the materials show: of a texture up to two copies, with and without its opacity.
+std::vector<SentTexture> sent_textures(const Appearance& appearance) {
+  std::vector<std::array<bool, 2>> is_used(appearance.textures.size());
+  const auto use = [&](const SentTexture& sent) {
+    is_used[sent.texture][sent.is_opaque ? 1 : 0] = true;
+  };
+  for (const Material& material : appearance.materials) {
+    if (material.texture) {
+      use(colours_of(material));
+    }
+    if (material.emission_texture) {
+      use(light_of(material));
+    }
+  }
+  std::vector<SentTexture> sent;
+  for (std::uint32_t texture = 0; texture < is_used.size(); ++texture) {
+    for (const bool is_opaque : {false, true}) {
+      if (is_used[texture][is_opaque ? 1 : 0]) {
+        sent.push_back({texture, is_opaque});
+      }
+    }
+  }
+  return sent;
+}
+
+Json material_json(const Material& material, const std::vector<SentTexture>& sent) {
+  const auto place_of = [&](const SentTexture& texture) {
+    return std::find(sent.begin(), sent.end(), texture) - sent.begin();
+  };
   Json json = {{"colour", material.colour}, {"unlit", material.unlit}};
   if (material.texture) {
-    json["texture"] = *material.texture;
+    json["texture"] = place_of(colours_of(material));
   }
   if (material.emission != std::array<double, 3>{}) {
     json["emission"] = material.emission;
   }
   if (material.emission_texture) {
-    json["emission_texture"] = *material.emission_texture;
+    json["emission_texture"] = place_of(light_of(material));
   }
   if (material.alpha == AlphaMode::Mask) {
     json["cutoff"] = material.alpha_cutoff;
@@ -91,16 +134,25 @@ Json material_json(const Material& material) {
   return json;
 }
 
-Json texture_json(const Texture& texture, const RunContext& run) {
+/// Opacity that means nothing hides colours, from what makes pictures smaller and from WebP.
+Image opaque(Image image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    image.rgba[i] = 255;
+  }
+  return image;
+}
+
+Json texture_json(const Texture& texture, bool is_opaque, const RunContext& run) {
   constexpr std::array kWraps{"repeat", "mirror", "clamp"};
   const int longest = std::max(texture.image.width, texture.image.height);
   const double share = std::min(1.0, static_cast<double>(kTextureSide) / longest);
   const auto side = [share](int size) {
     return std::max(1, static_cast<int>(std::lround(share * size)));
   };
-  const Image image = share < 1.0 ? smaller_picture(texture.image, side(texture.image.width),
-                                                    side(texture.image.height), run)
-                                  : texture.image;
+  Image image = is_opaque ? opaque(texture.image) : texture.image;
+  if (share < 1.0) {
+    image = smaller_picture(image, side(image.width), side(image.height), run);
+  }
   const bool keeps_colours = texture.nearest || image.rgba.size() <= 4 * kSmallTexture;
   return {{"picture", keeps_colours ? "data:image/png;base64," + base64(png_bytes(image))
                                     : "data:image/webp;base64," + base64(webp_bytes(image))},
@@ -144,6 +196,7 @@ Json asset_part(const Model& model, std::size_t max_faces, const PageFrame& fram
         appearance.materials.empty() ? Appearance::kNone : appearance.material_of_triangle[face];
     faces[std::min<std::size_t>(material, appearance.materials.size())].push_back(face);
   }
+  const std::vector<SentTexture> sent = sent_textures(appearance);
   Rows rows;
   Json groups = Json::array();
   for (std::size_t m = 0; m < faces.size(); ++m) {
@@ -151,7 +204,7 @@ Json asset_part(const Model& model, std::size_t max_faces, const PageFrame& fram
       continue;
     }
     const Material* material = m < appearance.materials.size() ? &appearance.materials[m] : nullptr;
-    Json group = material != nullptr ? material_json(*material) : Json::object();
+    Json group = material != nullptr ? material_json(*material, sent) : Json::object();
     group["start"] = rows.indices.size();
     add_faces(model, faces[m], material, rows);
     group["count"] = rows.indices.size() - group["start"].get<std::size_t>();
@@ -161,8 +214,8 @@ Json asset_part(const Model& model, std::size_t max_faces, const PageFrame& fram
                {"indices", base64_of(rows.indices)},
                {"groups", std::move(groups)},
                {"textures", Json::array()}};
-  for (const Texture& texture : appearance.textures) {
-    part["textures"].push_back(texture_json(texture, run));
+  for (const auto& [texture, is_opaque] : sent) {
+    part["textures"].push_back(texture_json(appearance.textures[texture], is_opaque, run));
   }
   if (!appearance.textures.empty()) {
     part["uvs"] = base64_of(rows.uvs);

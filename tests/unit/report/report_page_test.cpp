@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/io/model.h"
 #include "vantage/report/view_report.h"
 
 #include "core/json_text.h"
+#include "report/asset_part.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -80,6 +82,51 @@ TEST(ReportPage, HasTheVeryScoresOfASmallModel) {
     const auto d = sphere["directions"][i].get<std::vector<double>>();
     EXPECT_DOUBLE_EQ(sphere["scores"][i].get<double>(), map.scorer().score(Vec3(d[0], d[1], d[2])));
   }
+}
+
+/// A triangle of each of some materials, all with one wide red and blue texture of this opacity.
+Model textured(const std::vector<AlphaMode>& modes, std::uint8_t alpha) {
+  constexpr int kWidth = 1100;  // more than the page shows
+  Model model;
+  model.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  Texture texture{Image{kWidth, 1, {}}};
+  for (int x = 0; x < kWidth; ++x) {
+    const auto blue = static_cast<std::uint8_t>(x < 500 ? 0 : 255);
+    const auto red = static_cast<std::uint8_t>(255 - blue);
+    texture.image.rgba.insert(texture.image.rgba.end(), {red, 0, blue, alpha});
+  }
+  model.appearance.textures.push_back(texture);
+  model.appearance.uvs = {{0, 0}, {1, 0}, {0, 1}};
+  for (const AlphaMode mode : modes) {
+    Material material;
+    material.alpha = mode;
+    material.texture = 0;
+    model.appearance.material_of_triangle.push_back(
+        static_cast<std::uint32_t>(model.appearance.materials.size()));
+    model.appearance.materials.push_back(material);
+    model.mesh.triangles.push_back({0, 1, 2});
+    model.appearance.uv_of_triangle.push_back({0, 1, 2});
+  }
+  return model;
+}
+
+json page_look(const Model& model) {
+  return asset_part(model, model.mesh.triangles.size(), {}, {});
+}
+
+TEST(ReportPage, OpacityThatMeansNothingHidesNoColours) {
+  EXPECT_EQ(page_look(textured({AlphaMode::Opaque}, 0)),
+            page_look(textured({AlphaMode::Opaque}, 255)));
+  const json clear = page_look(textured({AlphaMode::Blend}, 0));
+  EXPECT_NE(clear["textures"], page_look(textured({AlphaMode::Blend}, 255))["textures"]);
+  // Materials that share it get a copy each, whatever comes first.
+  const json both = page_look(textured({AlphaMode::Opaque, AlphaMode::Blend}, 0));
+  ASSERT_EQ(both["textures"].size(), 2U);
+  const auto texture_of = [&](std::size_t group) {
+    return both["textures"][both["groups"][group]["texture"].get<std::size_t>()];
+  };
+  EXPECT_EQ(texture_of(0), page_look(textured({AlphaMode::Opaque}, 255))["textures"][0]);
+  EXPECT_EQ(texture_of(1), clear["textures"][0]);
 }
 
 }  // namespace
