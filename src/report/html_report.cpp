@@ -20,6 +20,7 @@
 #include "pipeline/map_estimates.h"
 #include "pipeline/preference.h"
 #include "pipeline/view_preparation.h"
+#include "render/colour_scale.h"
 #include "report/asset_part.h"
 #include "report/cloud_picture.h"
 #include "report/display_mesh.h"
@@ -60,12 +61,12 @@ Json numbers(const Vec3& p) {
 
 std::string packed_significance(const std::vector<double>& map,
                                 const std::vector<std::uint32_t>& rows) {
-  const double highest = map.empty() ? 0.0 : *std::max_element(map.begin(), map.end());
+  const std::vector<float> shares = shares_of_range(map);
   std::vector<std::uint8_t> packed;
   packed.reserve(rows.size());
   for (const std::uint32_t v : rows) {
-    const double share = highest > 0.0 ? map[v] / highest : 0.0;
-    packed.push_back(static_cast<std::uint8_t>(std::lround(255.0 * share)));
+    const bool has_place = !shares.empty() && !std::isnan(shares[v]);
+    packed.push_back(static_cast<std::uint8_t>(has_place ? std::lround(255.0F * shares[v]) : 0));
   }
   return base64_of(packed);
 }

@@ -84,6 +84,19 @@ TEST(ReportPage, HasTheVeryScoresOfASmallModel) {
   }
 }
 
+TEST(ReportPage, HasTheColoursOfThePictures) {
+  if (!has_report_page()) {
+    GTEST_SKIP() << "NOTHING WAS TESTED: built without npm, so there is no page";
+  }
+  Spiky spiky(y_of_tubes(0.3, 10));
+  const json mesh = spiky.page()["mesh"];
+  // From the lowest value to the highest, wherever they are.
+  for (double& value : spiky.shape.significance) {
+    value = 0.75 + 0.25 * value;
+  }
+  EXPECT_EQ(spiky.page()["mesh"]["significance"], mesh["significance"]);
+}
+
 /// A triangle of each of some materials, all with one wide red and blue texture of this opacity.
 Model textured(const std::vector<AlphaMode>& modes, std::uint8_t alpha) {
   constexpr int kWidth = 1100;  // more than the page shows
