@@ -115,9 +115,15 @@ std::string key_of(const RecordedModel& record, const ViewOptions& options,
   add_text(print, record.name);
   add_text(print, read_file(record.path));
   const std::string extension = extension_of(record.path);
-  if (extension == "gltf" || extension == "glb") {  // whose vertices may be in other files
-    for (const Vec3& p : load_model(record.path, run).mesh.positions) {
+  if (extension == "gltf" || extension == "glb") {  // whose mesh may be in other files
+    const TriMesh mesh = load_model(record.path, run).mesh;
+    for (const Vec3& p : mesh.positions) {
       add_vector(print, p);
+    }
+    for (const Triangle& triangle : mesh.triangles) {
+      for (const std::uint32_t v : triangle) {
+        add_text(print, std::to_string(v));
+      }
     }
   }
   for (const Measure& measure : measures) {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -315,20 +317,25 @@ class RecordedFolder {
  public:
   RecordedFolder() {
     std::filesystem::create_directory(folder_.path() / "models");
-    write_vertices(1.0F);
+    write_buffer(1.0F, {0, 1, 2, 1, 3, 2});
     write_views("1");
     write_file(folder_.file("models/a.gltf"),
                R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
-                   "meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":5}]}],
-                   "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}],
-                   "bufferViews":[{"buffer":0,"byteLength":48}],
-                   "buffers":[{"byteLength":48,"uri":"a.bin"}]})");
+                   "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+                   "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+                                {"bufferView":1,"componentType":5125,"count":6,"type":"SCALAR"}],
+                   "bufferViews":[{"buffer":0,"byteLength":48},
+                                  {"buffer":0,"byteOffset":48,"byteLength":24}],
+                   "buffers":[{"byteLength":72,"uri":"a.bin"}]})");
   }
 
-  void write_vertices(float height) const {
+  void write_buffer(float height, const std::vector<std::uint32_t>& corners) const {
     std::string bytes;
     for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, height, 0.F, 1.F, 1.F, 1.F}) {
       append_little_endian(bytes, x);
+    }
+    for (const std::uint32_t corner : corners) {
+      append_little_endian(bytes, corner);
     }
     write_file(folder_.file("models/a.bin"), bytes);
   }
@@ -360,7 +367,9 @@ TEST(EvaluationJournal, KnowsNoRowsOfAnotherBuffer) {
   const RecordedFolder folder;
   EXPECT_EQ(folder.known(), 0U);
   EXPECT_EQ(folder.known(), 1U);
-  folder.write_vertices(2.0F);
+  folder.write_buffer(2.0F, {0, 1, 2, 1, 3, 2});
+  EXPECT_EQ(folder.known(), 0U);
+  folder.write_buffer(2.0F, {0, 1, 2, 0, 1, 3});  // other faces of the same vertices
   EXPECT_EQ(folder.known(), 0U);
 }
 
