@@ -172,11 +172,13 @@ namespace {
 
 /// The views on one sheet, small.
 Image contact_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, ViewOptions options,
-                    const PictureLook& look) {
+                    const PictureLook& look, const RunContext& run) {
   constexpr int kTileWidth = 320;  // px
-  options.height = std::max(1, kTileWidth * options.height / options.width);
+  // Of higher pictures a tile shows more at the sides: a row of them would be no sheet.
+  constexpr int kMostTileHeight = 2 * kTileWidth;
+  options.height = std::clamp(kTileWidth * options.height / options.width, 1, kMostTileHeight);
   options.width = kTileWidth;
-  return view_sheet(shape, set, options, {}, look);
+  return view_sheet(shape, set, options, run, look);
 }
 
 }  // namespace
@@ -189,7 +191,8 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   }
   const std::vector<ReportedView>& views = report.set->views;
   std::vector<NamedCamera> cameras;
-  const double stills_share = tour_.empty() ? 1.0 : 0.3;
+  const double sheet_end = tour_.empty() ? 1.0 : 0.3;
+  const double stills_share = 0.8 * sheet_end;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::string name = numbered(i);
     const double step = stills_share / static_cast<double>(views.size());
@@ -208,11 +211,12 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   }
   output.add("views.transforms.json", views_transforms_json(cameras));
   if (options.pictures) {
-    output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options, pictures.look())));
+    output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options, pictures.look(),
+                                                    run.part(stills_share, sheet_end))));
   }
   if (report.set->way_rad() > 0.0) {
     write_tour(output, shape, pictures, report, up, options.margin_percent,
-               run.part(stills_share, 1.0));
+               run.part(sheet_end, 1.0));
   } else if (!tour_.empty()) {
     throw InvalidInput(
         "one view sees everything asked for, so there is no tour; ask for more "

@@ -4,6 +4,7 @@ import json
 import struct
 import unittest
 
+from png import read_png
 from program import MODELS, ProgramTest
 from program import contract_quickly as setUpModule
 from shapes import angle_bar
@@ -176,6 +177,12 @@ class ViewSets(ProgramTest):
         self.assertGreaterEqual(self.report("one")["view_set"]["way"]["coverage"], 0.95)
         self.assertTrue((self.dir / "one/tour.gltf").exists())
         self.assertIn("--views", self.vantage("view", self.bar, "--tour-path", "explore", exit_code=2).err)
+
+    def test_pictures_of_any_size_fit_on_a_sheet(self):
+        self.vantage("view", self.bar, "-o", "out", "--search", "rapid", "--views", 2, "--size", "4x256",
+                     "--projection", "orthographic", "--no-report")
+        self.assertEqual(read_png((self.dir / "out/view-02.png").read_bytes())[:2], (4, 256))
+        self.assertLess(max(read_png((self.dir / "out/views.png").read_bytes())[:2]), 1000)
 
     def test_a_tour_of_one_view_is_refused_and_leaves_nothing(self):
         done = self.vantage("view", self.bar, "-o", "out", "--coverage", 0.1, "--no-images", "--tour", "t.webp",
