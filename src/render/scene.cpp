@@ -231,6 +231,8 @@ void Scene::find_breaks(const SamplePacket& middles, std::size_t count, Fragment
       const Vec3f offset = ray.origin + hit.t * ray.direction - fragment.place.position;
       fragment.breaks = !hit || std::abs(fragment.place.normal.dot(offset)) >
                                     kBreakPx * static_cast<float>(pixel_);
+    } else if (hit) {
+      fragment.breaks = true;
     } else if (mask_->may_show(middles[i].x, middles[i].y)) {
       SamplePacket around{};
       for (std::size_t k = 0; k < few_.size(); ++k) {

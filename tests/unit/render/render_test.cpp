@@ -166,6 +166,24 @@ TEST(Render, ALineHalfAPixelWideHasNoGaps) {
   }
 }
 
+TEST(Render, ALineBetweenTwoRowsOfPixelsIsSeen) {
+  // Neither the middles of the pixels nor the few samples around them meet it, their corners do.
+  constexpr int kPictureSide = 100;
+  constexpr double kWide = 0.2;
+  TriMesh line;
+  line.positions = {
+      {-40, -kWide / 2, 0}, {40, -kWide / 2, 0}, {40, kWide / 2, 0}, {-40, kWide / 2, 0}};
+  line.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Image image = render(line, front(kPictureSide), {}, {}, square(kPictureSide));
+  for (int x = 20; x < 80; ++x) {
+    double column = 0.0;
+    for (int y = 0; y < kPictureSide; ++y) {
+      column += image.pixel(x, y)[3] / 255.0;
+    }
+    EXPECT_NEAR(column, kWide, 0.1) << x;
+  }
+}
+
 TEST(PictureSurface, TakesThePicturesOfSeveralPaintsAndCamerasThatEachWouldTakeAlone) {
   const TriMesh mesh = test::torus(1.0, 0.35, 48, 24);
   std::vector<Rgb8> colours;
