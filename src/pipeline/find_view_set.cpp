@@ -16,6 +16,7 @@
 #include "pipeline/describe_view.h"
 #include "pipeline/drawn_points.h"
 #include "pipeline/view_preparation.h"
+#include "render/picture_room.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
@@ -237,8 +238,7 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
   const Vec3 middle = shape.focus.empty() ? centre : enclosing_sphere(points).centre;
   const bool is_perspective = camera.projection == Projection::Perspective;
   double extent = 0.0;  // half the picture's height; perspective: over the distance
-  // The margins of both sides, parts of the shorter side, in picture heights.
-  const double border = 2.0 * margin * std::min(aspect, 1.0);
+  const Room room = room_for(aspect, margin);
   std::vector<Camera> cameras;
   for (const TourPose& pose : tour_path(stops, up_vector(up), count)) {
     const Aim aim = shape.focus.empty() ? Aim{centre, pose.direction, pose.up, camera.distance()}
@@ -247,8 +247,8 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
     for (const Vec3& p : points) {
       const Vec3 offset = p - aim.target;
       const double depth = is_perspective ? aim.distance - offset.dot(aim.back) : 1.0;
-      const double reach = std::max(std::abs(offset.dot(right)) / (aspect - border),
-                                    std::abs(offset.dot(aim.up)) / (1.0 - border));
+      const double reach =
+          std::max(std::abs(offset.dot(right)) / room.x, std::abs(offset.dot(aim.up)) / room.y);
       extent = std::max(extent, reach / depth);
     }
     cameras.push_back({.projection = camera.projection,

@@ -7,6 +7,8 @@
 #include "vantage/core/error.h"
 #include "vantage/render/render.h"
 
+#include "render/hex_text.h"
+
 namespace vantage {
 namespace {
 
@@ -40,17 +42,6 @@ std::optional<Rgb8> parse_colour(std::string_view text) {
   return colour;
 }
 
-/// "#rrggbb".
-std::string colour_text(const Rgb8& colour) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text = "#";
-  for (const std::uint8_t channel : colour) {
-    text += kDigits[channel / 16U];
-    text += kDigits[channel % 16U];
-  }
-  return text;
-}
-
 }  // namespace
 
 void set_background(RenderOptions& options, std::string_view text) {
@@ -82,8 +73,8 @@ std::string background_text(const RenderOptions& options) {
   if (!options.background) {
     return "transparent";
   }
-  const std::string top = colour_text(*options.background);
-  return options.background_bottom ? top + ":" + colour_text(*options.background_bottom) : top;
+  const std::string top = hex_text(*options.background);
+  return options.background_bottom ? top + ":" + hex_text(*options.background_bottom) : top;
 }
 
 }  // namespace vantage

@@ -10,6 +10,7 @@
 #include "vantage/render/render.h"
 
 #include "core/unit_direction.h"
+#include "render/picture_room.h"
 
 namespace vantage {
 namespace {
@@ -86,17 +87,6 @@ Bounds perspective_bounds(std::span<const Vec3> points, const Vec3& eye, const A
     bounds.add(offset.dot(axes.right) / depth, offset.dot(axes.up) / depth);
   }
   return bounds;
-}
-
-/// Half of the width and of the height that may be filled, in halves of the picture's height.
-struct Room {
-  double x;
-  double y;
-};
-
-Room room_for(double aspect, double margin) {
-  const double border = 2.0 * margin * std::min(aspect, 1.0);
-  return {aspect - border, 1.0 - border};
 }
 
 /// Half the picture's height that just holds a centred box of these half-sizes.

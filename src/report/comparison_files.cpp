@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <cstdio>
 
 #include "vantage/core/version.h"
 #include "vantage/io/write.h"
 #include "vantage/report/comparison.h"
 
 #include "core/json_text.h"
+#include "report/fixed_text.h"
 
 namespace vantage {
 namespace {
@@ -28,15 +28,6 @@ void add_numbers(std::string& row, std::initializer_list<double> values) {
   }
 }
 
-std::string short_number(double value, int decimals) {
-  if (!std::isfinite(value)) {
-    return "–";
-  }
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
-
 std::string escaped(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -52,8 +43,8 @@ std::string method_table(const Comparison& comparison) {
       "<th>worst from</th><th>score</th><th>views evaluated</th></tr>\n";
   const auto view_cells = [](const MeasuredView& view) {
     const Vec3& d = view.direction;
-    return "<td>" + short_number(d.x(), 3) + ", " + short_number(d.y(), 3) + ", " +
-           short_number(d.z(), 3) + "</td><td>" + short_number(view.value, 4) + "</td>";
+    return "<td>" + fixed_text(d.x(), 3) + ", " + fixed_text(d.y(), 3) + ", " +
+           fixed_text(d.z(), 3) + "</td><td>" + fixed_text(view.value, 4) + "</td>";
   };
   for (const ComparedMethod& method : comparison.methods) {
     html += "<tr><th>" + method.measure.name + "</th><td>" +
@@ -75,7 +66,7 @@ std::string pair_table(const Comparison& comparison, const char* title, double A
   for (std::size_t a = 0; a < comparison.methods.size(); ++a) {
     html += "<tr><th>" + comparison.methods[a].measure.name + "</th>";
     for (const Agreement& agreement : comparison.agreement[a]) {
-      html += "<td>" + short_number(agreement.*member, decimals) + "</td>";
+      html += "<td>" + fixed_text(agreement.*member, decimals) + "</td>";
     }
     html += "</tr>\n";
   }

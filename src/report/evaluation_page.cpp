@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <string_view>
@@ -14,26 +12,18 @@
 #include "report/agreement.h"
 #include "report/constant_camera.h"
 #include "report/csv_field.h"
+#include "report/fixed_text.h"
 
 namespace vantage {
 namespace {
-
-std::string fixed(double value, int decimals) {
-  if (!std::isfinite(value)) {
-    return "–";
-  }
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
-}
 
 std::string interval_text(const Interval& interval, double scale, int decimals, const char* unit) {
   if (!std::isfinite(interval.mean)) {
     return "–";
   }
-  return fixed(scale * interval.mean, decimals) + unit + " [" +
-         fixed(scale * interval.low, decimals) + ", " + fixed(scale * interval.high, decimals) +
-         "]";
+  return fixed_text(scale * interval.mean, decimals) + unit + " [" +
+         fixed_text(scale * interval.low, decimals) + ", " +
+         fixed_text(scale * interval.high, decimals) + "]";
 }
 
 /// Names in order of first appearance.
@@ -87,7 +77,7 @@ class ViewRow {
   }
 
   [[nodiscard]] std::string median(double ViewAgreement::*value) const {
-    return fixed(median_of(values(value)), 1);
+    return fixed_text(median_of(values(value)), 1);
   }
 
   /// What rows are sorted by; those without a number come last.

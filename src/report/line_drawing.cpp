@@ -10,6 +10,7 @@
 
 #include "vantage/io/write.h"
 
+#include "render/hex_text.h"
 #include "report/lettering.h"
 
 namespace vantage {
@@ -54,16 +55,6 @@ double distance_to_area(const PixelPoint& point, const std::vector<PixelPoint>& 
 /// Two decimals are enough for a pixel.
 std::string coordinate(double value) {
   return number_text(std::round(100.0 * value) / 100.0);
-}
-
-std::string hex(const Rgb8& colour) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text = "#";
-  for (const std::uint8_t channel : colour) {
-    text += kDigits[channel >> 4U];
-    text += kDigits[channel & 15U];
-  }
-  return text;
 }
 
 void blend(std::uint8_t* pixel, const Rgb8& colour, double coverage) {
@@ -112,8 +103,8 @@ std::string LineDrawing::svg() const {
     // A line without length is a dot only if it is closed.
     path += is_area || shape.points.size() == 1 ? "Z" : "";
     text += "<path d=\"" + path + "\" ";
-    text += is_area ? "fill=\"" + hex(shape.colour) + "\"/>\n"
-                    : "fill=\"none\" stroke=\"" + hex(shape.colour) + "\" stroke-width=\"" +
+    text += is_area ? "fill=\"" + hex_text(shape.colour) + "\"/>\n"
+                    : "fill=\"none\" stroke=\"" + hex_text(shape.colour) + "\" stroke-width=\"" +
                           coordinate(shape.width) + "\"/>\n";
   }
   return text + "</g>\n</svg>\n";
