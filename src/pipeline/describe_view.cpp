@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/describe_view.h"
 
-#include <optional>
 #include <span>
 #include <vector>
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <utility>
 
 #include "core/unit_direction.h"
 #include "pipeline/twins.h"

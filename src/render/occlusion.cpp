@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/occlusion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>

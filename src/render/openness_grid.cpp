@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "render/openness_grid.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "core/parallel.h"
 
 namespace vantage {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report/constant_camera.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>

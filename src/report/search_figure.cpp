@@ -6,10 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <numbers>
 #include <span>
 #include <string>
-#include <utility>
 
 #include <Eigen/Geometry>
 
