@@ -13,14 +13,14 @@ namespace vantage {
 namespace {
 
 constexpr std::array<const char*, 6> kStages{"load", "contract", "skeleton",
-                                             "map",  "search",   "total"};
+                                             "map",  "search",   "sum"};
 
 /// Seconds of each stage, to the millisecond.
 std::array<std::string, 6> stage_texts(const StageSeconds& s) {
-  const double total = s.load + s.contract + s.skeleton + s.map + s.search;
+  const double sum = s.load + s.contract + s.skeleton + s.map + s.search;
   std::array<std::string, 6> texts;
   std::size_t next = 0;
-  for (const double seconds : {s.load, s.contract, s.skeleton, s.map, s.search, total}) {
+  for (const double seconds : {s.load, s.contract, s.skeleton, s.map, s.search, sum}) {
     texts[next++] = number_text(std::round(1000.0 * seconds) / 1000.0);
   }
   return texts;

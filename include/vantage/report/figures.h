@@ -47,7 +47,7 @@ struct StageTimes {
   StageSeconds seconds{};    ///< `load`, `contract`, `skeleton`, `map` and `search` are shown.
 };
 
-/// Table 1 as CSV: model,vertices,faces,load_s,contract_s,skeleton_s,map_s,search_s,total_s.
+/// Table 1 as CSV: model,vertices,faces,load_s,contract_s,skeleton_s,map_s,search_s,sum_s.
 std::string times_csv(const std::vector<StageTimes>& rows);
 /// The same as a Markdown table.
 std::string times_markdown(const std::vector<StageTimes>& rows);

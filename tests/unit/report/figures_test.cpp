@@ -214,7 +214,7 @@ TEST(TimesTable, HasOneRowAModelAndAddsUp) {
   row.seconds.contract = 1.25;
   row.seconds.search = 0.5;
   EXPECT_EQ(times_csv({row}),
-            "model,vertices,faces,load_s,contract_s,skeleton_s,map_s,search_s,total_s\n"
+            "model,vertices,faces,load_s,contract_s,skeleton_s,map_s,search_s,sum_s\n"
             "\"a|b\",10,16,0,1.25,0,0,0.5,1.75\n");
   EXPECT_NE(times_markdown({row}).find("| a\\|b | 10 | 16 | 0 | 1.25 | 0 | 0 | 0.5 | 1.75 |\n"),
             std::string::npos);
