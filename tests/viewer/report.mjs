@@ -75,7 +75,7 @@ export async function waitForFlight(page) {
   await page.waitForFunction(() => window.vantage.model.flight === undefined);
 }
 
-/** Waits until what was asked for is drawn: a canvas that is made larger is empty until the frame after. */
+/** Waits until what was asked for is drawn. */
 export const drawn = (page) => page.evaluate(() => new Promise((resolve) => {
   requestAnimationFrame(() => requestAnimationFrame(resolve));
 }));

@@ -52,11 +52,11 @@ for (const name of ['best', 'worst']) {
 }
 
 test('the window shows the silhouette of best.png', async () => {
-  // The stage is as large as the picture: 360 px of panel beside it, the header above.
+  // The 3D part is as large as the picture: 360 px of panel beside it, bars above and below.
   const [wide, high] = view.best.size;
   const page = await opened({ width: wide + 360, height: high + 100 });
-  const header = (await page.locator('header').boundingBox()).height;
-  await page.setViewportSize({ width: wide + 360, height: high + Math.round(header) });
+  const bars = await page.evaluate(() => window.innerHeight - document.getElementById('window').getBoundingClientRect().height);
+  await page.setViewportSize({ width: wide + 360, height: high + Math.round(bars) });
   await page.waitForFunction((h) => Math.abs(document.getElementById('model').clientHeight - h) <= 1, high);
   await drawn(page);
   const [width, height] = await page.evaluate(() => [
@@ -85,6 +85,30 @@ test('the window shows the silhouette of best.png', async () => {
   }, [picture, width, height]);
   // One pixel along the outline of a horse is about 1 % of its area.
   assert.ok(overlap > 0.98, `overlap ${overlap}`);
+});
+
+test('the model stays in sight while the window is resized', async () => {
+  const page = await opened();
+  const seen = await page.evaluate(() => new Promise((resolve) => {
+    const { canvas } = window.vantage.model;
+    const small = Object.assign(document.createElement('canvas'), { width: 32, height: 32 }).getContext('2d', { willReadFrequently: true });
+    const stage = document.getElementById('stage');
+    const shown = [];
+    // Observers are called in their order, after the page's own: what is in the canvas then is shown.
+    new ResizeObserver((_, observer) => {
+      small.clearRect(0, 0, 32, 32);
+      small.drawImage(canvas, 0, 0, 32, 32);
+      shown.push(small.getImageData(0, 0, 32, 32).data.some((value) => value > 0));
+      if (shown.length === 4) {
+        observer.disconnect();
+        stage.style.width = '';
+        resolve(shown);
+      } else {
+        requestAnimationFrame(() => { stage.style.width = `${600 - 20 * shown.length}px`; });
+      }
+    }).observe(canvas.parentElement);
+  }));
+  assert.deepEqual(seen, [true, true, true, true]);
 });
 
 test('the slider plays the history: the last level is thinner than the first', async () => {
@@ -232,6 +256,30 @@ test('hiding the significance ends the contraction that is played', async () => 
   assert.equal(await page.evaluate(() => window.vantage.model.level), 0);
 });
 
+test('a slider that is taken hold of ends the play', async () => {
+  const page = await opened();
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => window.vantage.model.level > 0);
+  await page.fill('#level', '1');
+  assert.equal(await page.textContent('#play'), '▶');
+  await drawn(page);
+  assert.equal(await page.evaluate(() => window.vantage.model.level), 1);
+});
+
+test('a tour can be stopped on the way to its start', async () => {
+  const page = await opened();
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  await page.click('.view[data-view=worst]');
+  await waitForFlight(page);
+  const press = () => page.evaluate(() => { // at once: a busy machine may answer only when the flight is over
+    document.getElementById('tour').click();
+    document.getElementById('tour').click();
+  });
+  await press();
+  assert.equal(await page.evaluate(() => window.vantage.model.flight), undefined);
+  assert.equal(await page.textContent('#tour'), '▶ Tour');
+});
+
 test('the tour goes on until something else is asked for', async () => {
   const page = await opened();
   await page.emulateMedia({ reducedMotion: 'no-preference' });
@@ -277,6 +325,19 @@ test('opens on the model as it is; colours, legend, skeleton and contraction com
   await page.click('#show-map');
   assert.deepEqual(await shown(), [false, false, false]);
 });
+
+for (const width of [390, 850, 1280]) {
+  test(`at ${width} px nothing lies over the model or over another control`, async () => {
+    const page = await opened({ width, height: 844 }, width === 390 ? phone : {});
+    await page.click('#show-map');
+    const boxes = await page.locator('#window, #tools, #legend, #actions button').evaluateAll((all) => all
+      .map((one) => [one.id, one.getBoundingClientRect()]).map(([id, { left, right, top, bottom }]) => ({ id, left, right, top, bottom })));
+    assert.equal(boxes.length, 5);
+    const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+    boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) => assert.ok(apart(a, b), JSON.stringify([a, b]))));
+    assert.ok(boxes[1].bottom - boxes[1].top > 300, JSON.stringify(boxes[1]));
+  });
+}
 
 test('a sphere of the score alone has no switch', async () => {
   const page = await opened();
@@ -402,6 +463,40 @@ for (const width of [390, 1280]) {
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
   });
 }
+
+test('without WebGL there are the pictures and their cameras', async () => {
+  const first = await opened();
+  const page = await first.context().newPage();
+  await page.addInitScript(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function other(type, ...rest) {
+      return /webgl/.test(type) ? null : getContext.call(this, type, ...rest);
+    };
+  });
+  await page.goto(first.url());
+  assert.equal(await page.locator('.view').count(), 2 + 3);
+  assert.match(await page.locator('#stage').innerText(), /^This browser draws nothing in 3D/);
+  const shown = () => page.getAttribute('#still', 'src');
+  const best = await shown();
+  await page.keyboard.press('w');
+  assert.match(await page.textContent('#camera-of'), /worst/);
+  assert.ok(best.startsWith('data:image/png') && await shown() !== best);
+  await page.keyboard.press('d');
+  assert.equal(await page.getAttribute('html', 'data-theme'), 'dark');
+  for (const dead of ['#tools', '#reset', '#tour', '#sphere', '#replay']) {
+    assert.equal(await page.isVisible(dead), false, dead);
+  }
+  await page.close();
+});
+
+test('without JavaScript the page says what it needs', async () => {
+  const first = await opened();
+  const context = await first.context().browser().newContext({ javaScriptEnabled: false });
+  const page = await context.newPage();
+  await page.goto(first.url());
+  assert.match((await page.locator('body').innerText()).trim(), /^Vantage\s+This page needs JavaScript\.[^.]+\.$/);
+  await context.close();
+});
 
 test('on a phone nothing is wider than the screen', async () => {
   const page = await opened({ width: 360, height: 740 }, phone);

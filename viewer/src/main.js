@@ -19,13 +19,14 @@ panel.fillNumbers(data);
 panel.fillWarnings(data.warnings);
 panel.fillLegend(asBytes(data.colours));
 const showCamera = panel.fillCameras(data);
+const press = panel.fillViews(data.views, pick);
 
-const sphere = new ScoreSphere(element('sphere'), data, (direction) => {
-  // The distance and the lens of the scoring camera: the whole model is in the picture.
+/** Looks at the whole model with the distance and the lens of the scoring camera. */
+function lookFrom(direction) {
   press('');
   model.fly({ ...data.lens, eye: direction.clone().multiplyScalar(data.lens.distance).toArray(),
     up: data.up, target: [0, 0, 0] });
-});
+}
 /** The value there, from those of the sphere; near a view that is known, towards its own. */
 const valueNear = (direction, values, { angle, value }) => {
   const share = Math.min(1, angle / SPACING_RAD);
@@ -38,8 +39,7 @@ const nearestView = (direction) => {
 };
 const bestEye = new Vector3(...view.best.direction);
 
-let model; // the first report of a direction comes from its constructor
-model = new ModelView(element('model'), data, (direction, up) => {
+function showDirection(direction, up) {
   sphere.turn(direction, up);
   const { scores, objective } = data.sphere;
   const near = nearestView(direction);
@@ -47,15 +47,31 @@ model = new ModelView(element('model'), data, (direction, up) => {
   const best = { angle: direction.angleTo(bestEye), value: view.best.objective };
   panel.showDirection(direction, score, view.total,
     sphere.hasObjective && best.value > 0 ? valueNear(direction, objective, best) / best.value : undefined);
-}, () => press(''));
+}
+let sphere;
+let model; // undefined where the browser draws nothing in 3D: the pictures are shown in its place
+try {
+  sphere = new ScoreSphere(element('sphere'), data, lookFrom);
+  model = new ModelView(element('model'), data, showDirection, () => press(''));
+} catch (error) {
+  console.error(error);
+  document.documentElement.dataset.shows = 'pictures';
+}
 function pick(picked) {
   press(picked.name);
   showCamera(picked);
-  model.fly(picked);
+  if (model) {
+    model.fly(picked);
+  } else {
+    element('still').src = picked.picture;
+  }
 }
-const press = panel.fillViews(data.views, pick);
-press(data.views[0].name);
-model.moved();
+if (model) {
+  press(data.views[0].name);
+  model.moved();
+} else {
+  pick(data.views[0]);
+}
 
 // The analysis comes and goes as one: colours, their legend, and the skeleton and the contraction they come from.
 function showAnalysis(on) {
@@ -65,9 +81,7 @@ function showAnalysis(on) {
   model.showMap(on);
   showSkeleton(on && element('show-skeleton').checked);
   if (!on) {
-    if (playing) {
-      play();
-    }
+    pause();
     setLevel(0);
   }
 }
@@ -79,7 +93,7 @@ element('show-map').addEventListener('change', (event) => showAnalysis(event.tar
 element('show-skeleton').addEventListener('change', (event) => showSkeleton(event.target.checked));
 
 // What the best view maximises, and the score, on the sphere.
-if (!sphere.hasObjective) {
+if (!sphere?.hasObjective) {
   element('sphere-of').remove();
 }
 function showOnSphere(what) {
@@ -119,13 +133,19 @@ function setLevel(level) {
   element('level-text').textContent = Number(level).toFixed(1);
   model.setLevel(Number(level));
 }
-slider.addEventListener('input', () => setLevel(slider.value));
+slider.addEventListener('input', () => {
+  pause();
+  setLevel(slider.value);
+});
 let playing;
+function pause() {
+  cancelAnimationFrame(playing);
+  playing = undefined;
+  element('play').textContent = '▶';
+}
 function play() {
   if (playing) {
-    cancelAnimationFrame(playing);
-    playing = undefined;
-    element('play').textContent = '▶';
+    pause();
     return;
   }
   element('play').textContent = '❚❚';
@@ -139,7 +159,7 @@ function play() {
     setLevel(Math.min(next, Number(slider.max)));
     playing = requestAnimationFrame(step);
     if (next >= Number(slider.max)) {
-      play();
+      pause();
     }
   };
   playing = requestAnimationFrame(step);
@@ -173,7 +193,9 @@ for (const input of document.querySelectorAll('input[name=goal], #epsilon')) {
   input.addEventListener('input', () => replay(false));
 }
 element('replay').addEventListener('click', () => replay(true));
-replay(false);
+if (model) {
+  replay(false);
+}
 
 // The round over all views, again and again until something else is asked for.
 const TOUR_DEG_PER_S = 36;
@@ -187,10 +209,8 @@ if (data.tour) {
       return;
     }
     press('');
-    model.fly(poses[0], () => {
-      button.textContent = '❚❚ Tour';
-      model.tour(poses, (degrees / TOUR_DEG_PER_S) * 1000, () => { button.textContent = '▶ Tour'; });
-    });
+    button.textContent = '❚❚ Tour';
+    model.tour(poses, (degrees / TOUR_DEG_PER_S) * 1000, () => { button.textContent = '▶ Tour'; });
   });
 } else {
   element('tour-box').remove();
@@ -199,7 +219,7 @@ if (data.tour) {
 // Light and dark.
 function setTheme(dark) {
   document.documentElement.dataset.theme = dark ? 'dark' : 'light';
-  model.draw();
+  model?.draw();
 }
 setTheme(matchMedia('(prefers-color-scheme: dark)').matches);
 const toggleTheme = () => setTheme(document.documentElement.dataset.theme !== 'dark');
@@ -225,15 +245,20 @@ document.addEventListener('keydown', (event) => {
   if (tagName === 'SELECT' || isPressed || event.ctrlKey || event.metaKey || event.altKey) {
     return;
   }
-  const ownArrows = ['range', 'radio', 'textarea'].includes(type); // which move by them, too
-  if (!ownArrows && model.moveByKey(event.key)) {
-    event.preventDefault();
-    return;
-  }
   const picked = data.views.find(({ name }) => panel.keyOf(name) === event.key);
   if (picked) {
     pick(picked);
-  } else if (event.key === ' ') {
+    return;
+  }
+  if (!model && event.key !== 'd') {
+    return;
+  }
+  const ownArrows = ['range', 'radio', 'textarea'].includes(type); // which move by them, too
+  if (!ownArrows && model?.moveByKey(event.key)) {
+    event.preventDefault();
+    return;
+  }
+  if (event.key === ' ') {
     event.preventDefault();
     showAnalysis(true);
     play();

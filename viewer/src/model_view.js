@@ -214,7 +214,7 @@ export class ModelView {
 
   /** Stands at a view's camera at once. */
   look(view) {
-    this.stop();
+    this.flight = undefined;
     this.taken = false;
     this.controls?.dispose();
     this.camera.position.set(...view.eye);
@@ -288,9 +288,13 @@ export class ModelView {
     this.flight = requestAnimationFrame(step);
   }
 
-  /** Flies a closed round of cameras until it is stopped. */
+  /** Flies to a closed round of cameras, and along it until it is stopped. */
   tour(poses, roundMs, onEnd) {
-    this.touring = onEnd;
+    this.fly(poses[0], () => this.goRound(poses, roundMs));
+    this.touring = onEnd; // from now on, so that the way there can be stopped, too
+  }
+
+  goRound(poses, roundMs) {
     const start = performance.now();
     const mix = (a, b, share) => new THREE.Vector3(...a).lerp(new THREE.Vector3(...b), share);
     const step = (now) => {
@@ -375,16 +379,20 @@ export class ModelView {
 
   /** What the window shows, as a PNG on nothing. */
   picture() {
-    this.renderer.render(this.scene, this.camera);
+    this.render();
     return this.canvas.toDataURL('image/png');
   }
 
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
+    if (clientWidth === this.width && clientHeight === this.height) {
+      return;
+    }
+    [this.width, this.height] = [clientWidth, clientHeight];
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.aspect = clientWidth / Math.max(1, clientHeight);
     this.setLens(this.half, this.pictureAspect);
-    this.draw();
+    this.render(); // at once: another size empties the canvas, and the next frame is after this one is shown
   }
 
   moved() {
@@ -400,7 +408,11 @@ export class ModelView {
   draw() {
     this.pending ??= requestAnimationFrame(() => {
       this.pending = undefined;
-      this.renderer.render(this.scene, this.camera);
+      this.render();
     });
+  }
+
+  render() {
+    this.renderer.render(this.scene, this.camera);
   }
 }
