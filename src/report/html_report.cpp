@@ -365,7 +365,8 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
                {"turn", Json::array({numbers(model.turn.row(0)), numbers(model.turn.row(1)),
                                      numbers(model.turn.row(2))})},
                {"lens", lens_part(report.camera, frame)},
-               {"colours", colour_table()}};
+               {"colours", colour_table()},
+               {"crease_deg", pictures.look().render.crease_deg}};
   run.advance("report", 0.0);
   add_surfaces(data, model, shape, frame, quiet);
   data["skeleton"] = skeleton_part(shape.skeleton.graph, frame);

@@ -5,8 +5,8 @@ import { test } from 'node:test';
 import { outwardNormals, ShadedVertices } from '../../viewer/src/corner_normals.js';
 
 const kStep = 2.5 / 65535; // of the grid that positions are sent on
-const shaded = (points, faces, ...rest) => new ShadedVertices(
-  Float32Array.from(points.flat().map((x) => Math.round(x / kStep) * kStep)), Uint32Array.from(faces.flat()), ...rest);
+const shaded = (points, faces, isMoved = false, creaseDeg = 40) => new ShadedVertices(
+  Float32Array.from(points.flat().map((x) => Math.round(x / kStep) * kStep)), Uint32Array.from(faces.flat()), creaseDeg, isMoved);
 const normalOf = (surface, corner) => Array.from(surface.normals.subarray(3 * surface.index[corner], 3 * surface.index[corner] + 3));
 const near = (a, b) => Math.hypot(...a.map((x, i) => x - b[i])) < 1e-3;
 
@@ -32,6 +32,17 @@ for (const turned of [false, true]) {
     assert.ok(near(normalOf(crisp, 6).map((x) => side * x), sharp.flat));
   });
 }
+
+test('the crease is where it is asked for, and 0 leaves every face flat', () => {
+  const gentle = roof(20, false);
+  assert.ok(near(normalOf(shaded(gentle.points, gentle.faces, false, 0), 1), [0, 0, 1]));
+  const sharp = roof(60, false);
+  assert.ok(near(normalOf(shaded(sharp.points, sharp.faces, false, 75), 1), sharp.half));
+  const slight = roof(5, true);
+  const facets = shaded(slight.points, slight.faces, true, 0);
+  facets.normalsAt(Float32Array.from(slight.points.flat()));
+  assert.ok(near(normalOf(facets, 6).map((x) => -x), slight.flat));
+});
 
 test('a row is drawn once where it has one normal', () => {
   const flat = shaded([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]);

@@ -9,10 +9,10 @@ import { surface } from './surface.js';
 const THICKENING = 0.006;
 
 export class Contraction {
-  constructor(part, material) {
+  constructor(part, creaseDeg, material) {
     this.levels = part.levels.map(asPositions);
     this.shown = this.levels[0].slice(); // of rows
-    const { geometry, vertices } = surface(this.shown, asIndices(part.indices), { significance: asBytes(part.significance) }, true);
+    const { geometry, vertices } = surface(this.shown, asIndices(part.indices), creaseDeg, { significance: asBytes(part.significance) }, true);
     this.vertices = vertices;
     this.outward = outwardNormals(vertices);
     this.mesh = new THREE.Mesh(geometry, material);

@@ -4,16 +4,8 @@
 import { gridKeys } from './decode.js';
 
 const cosine = (degrees) => Math.cos((degrees * Math.PI) / 180);
-const SMOOTH = cosine(30); // up to there a face counts in full; 40° ± 10°, as in pictures
-const CRISP = cosine(50); // from there on it does not
-const HALF_SMOOTH = cosine(15);
+const SOFTNESS_DEG = 10; // an edge turns from smooth to crisp over the crease angle ± so much, as in pictures
 const MOST_PAIRS = 64; // of corners at a place: to compare all pairs of more would take long
-
-/** How much a face at that cosine counts: less than 0 if it is wound the other way. */
-function shareOf(cos) {
-  const t = Math.min(Math.max((Math.abs(cos) - CRISP) / (SMOOTH - CRISP), 0), 1);
-  return Math.sign(cos) * t * t * (3 - 2 * t);
-}
 
 /** Unit normals of the faces, 0 of those without area, and the weights of corners: angle times area. */
 function faceShapes(positions, indices) {
@@ -75,9 +67,15 @@ function cornersByPlace(indices, places, count) {
 
 /** The vertices that a surface is drawn with: a row of its positions once for each normal that it has there. */
 export class ShadedVertices {
-  /** @param isMoved whether normals are asked for again, at other positions. */
-  constructor(positions, indices, isMoved = false) {
+  /** @param creaseDeg edges that bend by more are sharp; 0: every face is flat.
+   *  @param isMoved whether normals are asked for again, at other positions. */
+  constructor(positions, indices, creaseDeg, isMoved = false) {
     this.indices = indices;
+    this.isFlat = creaseDeg === 0;
+    const smoothDeg = Math.max(0, creaseDeg - SOFTNESS_DEG);
+    this.smooth = cosine(smoothDeg); // up to there a face counts in full
+    this.halfSmooth = cosine(smoothDeg / 2);
+    this.crisp = cosine(creaseDeg + SOFTNESS_DEG); // from there on it does not
     this.faces = faceShapes(positions, indices);
     this.index = new Uint32Array(indices.length);
     this.rows = [];
@@ -101,11 +99,18 @@ export class ShadedVertices {
     return normals[f] * normals[g] + normals[f + 1] * normals[g + 1] + normals[f + 2] * normals[g + 2];
   }
 
+  /** How much a corner's face counts for another's: less than 0 if it is wound the other way. */
+  share(a, b) {
+    const cos = this.cosine(a, b);
+    const t = Math.min(Math.max((Math.abs(cos) - this.crisp) / (this.smooth - this.crisp), 0), 1);
+    return Math.sign(cos) * t * t * (3 - 2 * t);
+  }
+
   /** How much each of the corners counts for the first. */
   shares(first, corners) {
     const shares = new Array(corners.length);
     for (let i = 0; i < corners.length; i += 1) {
-      shares[i] = shareOf(this.cosine(first, corners[i]));
+      shares[i] = this.share(first, corners[i]);
     }
     return shares;
   }
@@ -116,9 +121,9 @@ export class ShadedVertices {
     let isSmooth = true;
     for (let i = 0; i < corners.length; i += 1) {
       const c = corners[i];
-      if (weights[c] > 0) {
+      if (weights[c] > 0 && !this.isFlat) {
         solid.push(c);
-        isSmooth &&= Math.abs(this.cosine(solid[0], c)) >= HALF_SMOOTH;
+        isSmooth &&= Math.abs(this.cosine(solid[0], c)) >= this.halfSmooth;
       } else {
         this.addVertex(c, [], [], normals);
       }
@@ -132,7 +137,7 @@ export class ShadedVertices {
     } else {
       const groups = [];
       solid.forEach((c) => {
-        const group = groups.find(([leader]) => shareOf(this.cosine(leader, c)) !== 0);
+        const group = groups.find(([leader]) => this.share(leader, c) !== 0);
         if (group) {
           group.push(c);
         } else {

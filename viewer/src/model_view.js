@@ -63,9 +63,9 @@ export class ModelView {
     this.addLights();
     this.addSurface(data);
     if (data.asset) {
-      this.addAsset(data.asset);
+      this.addAsset(data.asset, data.crease_deg);
     }
-    this.history = new Contraction(data.history, this.material);
+    this.history = new Contraction(data.history, data.crease_deg, this.material);
     this.scene.add(this.history.mesh);
     this.addSkeleton(data.skeleton);
     this.level = 0;
@@ -86,15 +86,16 @@ export class ModelView {
 
   addSurface(data) {
     this.palette = palette(asBytes(data.colours));
-    const { mesh } = data;
-    const { geometry } = surface(asPositions(mesh.positions), asIndices(mesh.indices), { significance: asBytes(mesh.significance) });
+    const { mesh, crease_deg: creaseDeg } = data;
+    const { geometry } = surface(asPositions(mesh.positions), asIndices(mesh.indices), creaseDeg,
+      { significance: asBytes(mesh.significance) });
     this.material = new THREE.MeshStandardMaterial({ map: this.palette, roughness: 0.75, side: THREE.DoubleSide });
     this.mesh = new THREE.Mesh(geometry, this.material);
     this.scene.add(this.mesh);
   }
 
   /** The file's own faces in its materials. */
-  addAsset(asset) {
+  addAsset(asset, creaseDeg) {
     const values = {};
     if (asset.uvs) {
       values.uv = new Float32Array(asBytes(asset.uvs).buffer);
@@ -106,7 +107,7 @@ export class ModelView {
         new THREE.Color().setRGB(bytes[i] / 255, bytes[i + 1] / 255, bytes[i + 2] / 255, THREE.SRGBColorSpace).toArray(values.color, i);
       }
     }
-    const { geometry } = surface(asPositions(asset.positions), asIndices(asset.indices), values);
+    const { geometry } = surface(asPositions(asset.positions), asIndices(asset.indices), creaseDeg, values);
     const textures = asset.textures.map((texture) => this.texture(texture));
     const materials = asset.groups.map((group, i) => {
       geometry.addGroup(group.start, group.count, i);

@@ -3,10 +3,11 @@ import * as THREE from 'three';
 import { ShadedVertices } from './corner_normals.js';
 
 /** A surface with its normals.
+ *  @param creaseDeg of pictures.
  *  @param values of rows: `significance`, or `uv` and `color`.
  *  @param isMoved whether its vertices move. */
-export function surface(positions, indices, { significance, uv, color }, isMoved = false) {
-  const vertices = new ShadedVertices(positions, indices, isMoved);
+export function surface(positions, indices, creaseDeg, { significance, uv, color }, isMoved = false) {
+  const vertices = new ShadedVertices(positions, indices, creaseDeg, isMoved);
   const geometry = new THREE.BufferGeometry();
   const add = (name, values, size) => geometry.setAttribute(name, new THREE.BufferAttribute(values, size));
   add('position', vertices.spread(positions, 3), 3);
