@@ -80,6 +80,17 @@ export const drawn = (page) => page.evaluate(() => new Promise((resolve) => {
   requestAnimationFrame(() => requestAnimationFrame(resolve));
 }));
 
+/** That page as it was opened, in a window of this size. */
+export async function fresh(name, size = desktop, device = {}) {
+  const page = await pageOf(name, device);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.setViewportSize(size);
+  await page.click('#reset');
+  await page.evaluate(() => document.activeElement.blur());
+  await waitForFlight(page);
+  return page;
+}
+
 /** What count says of the window's { data, width, height } of pixels, in the page. */
 export async function pixels(page, count) {
   await drawn(page);

@@ -5,11 +5,10 @@ import * as fs from 'node:fs';
 import * as path from 'node:path';
 import { before, test } from 'node:test';
 import { complaints } from './browser.mjs';
-import { blenderLocation, camera, cameraText, cameraTexts, clickSphere, desktop, distance, drawn, folder, models, pageOf, pixels, unit,
-  vantage, viewOf, waitForFlight } from './report.mjs';
+import { blenderLocation, camera, cameraText, cameraTexts, clickSphere, distance, drawn, folder, fresh, models, pixels, unit, vantage,
+  viewOf, waitForFlight } from './report.mjs';
 
 const out = path.join(folder, 'result');
-const phone = { hasTouch: true, isMobile: true };
 let view;
 
 before(() => {
@@ -17,16 +16,7 @@ before(() => {
   view = viewOf('result');
 });
 
-/** The report as it was opened, in a window of this size. */
-async function opened(size = desktop, device = {}) {
-  const page = await pageOf('result', device);
-  await page.emulateMedia({ reducedMotion: 'reduce' });
-  await page.setViewportSize(size);
-  await page.click('#reset');
-  await page.evaluate(() => document.activeElement.blur());
-  await waitForFlight(page);
-  return page;
-}
+const opened = (size) => fresh('result', size);
 
 test('opens from disk without errors, warnings or requests', async () => {
   const page = await opened();
@@ -87,30 +77,6 @@ test('the window shows the silhouette of best.png', async () => {
   assert.ok(overlap > 0.98, `overlap ${overlap}`);
 });
 
-test('the model stays in sight while the window is resized', async () => {
-  const page = await opened();
-  const seen = await page.evaluate(() => new Promise((resolve) => {
-    const { canvas } = window.vantage.model;
-    const small = Object.assign(document.createElement('canvas'), { width: 32, height: 32 }).getContext('2d', { willReadFrequently: true });
-    const stage = document.getElementById('stage');
-    const shown = [];
-    // Observers are called in their order, after the page's own: what is in the canvas then is shown.
-    new ResizeObserver((_, observer) => {
-      small.clearRect(0, 0, 32, 32);
-      small.drawImage(canvas, 0, 0, 32, 32);
-      shown.push(small.getImageData(0, 0, 32, 32).data.some((value) => value > 0));
-      if (shown.length === 4) {
-        observer.disconnect();
-        stage.style.width = '';
-        resolve(shown);
-      } else {
-        requestAnimationFrame(() => { stage.style.width = `${600 - 20 * shown.length}px`; });
-      }
-    }).observe(canvas.parentElement);
-  }));
-  assert.deepEqual(seen, [true, true, true, true]);
-});
-
 test('the slider plays the history: the last level is thinner than the first', async () => {
   const page = await opened();
   const area = () => pixels(page, ({ data }) => data.filter((_, i) => i % 4 === 3).reduce((n, a) => n + (a > 0 ? 1 : 0), 0));
@@ -168,6 +134,15 @@ test('the replayed search takes fewer views for a larger ε, and all of them for
   const counts = [await views(-3), await views(0), await views(3)];
   assert.ok(counts[0] >= counts[1] && counts[1] > counts[2] && counts[2] >= 8, counts.join(' '));
   assert.match(await page.textContent('#replay-text'), / views in 1 ring; /);
+});
+
+test('where the replayed search ends, its score is told', async () => {
+  const page = await opened();
+  await page.check('input[name=goal][value=worst]');
+  await page.click('#replay');
+  const [, end] = (await page.textContent('#replay-text')).match(/ends at about ([\d.]+)/);
+  const [, here] = (await page.textContent('#direction')).match(/score about ([\d.]+)/);
+  assert.equal(here, end);
 });
 
 test('keys turn the model, pick views and toggle what is shown', async () => {
@@ -280,6 +255,42 @@ test('a tour can be stopped on the way to its start', async () => {
   assert.equal(await page.textContent('#tour'), '▶ Tour');
 });
 
+test('the tour goes from view to view where motion is unwelcome', async () => {
+  const page = await opened();
+  const seen = await page.evaluate(() => {
+    const { model, data } = window.vantage;
+    const { requestAnimationFrame, cancelAnimationFrame } = window;
+    const frames = new Map(); // of a clock that is turned by hand
+    let last = 0;
+    window.requestAnimationFrame = (step) => {
+      last += 1;
+      frames.set(last, step);
+      return last;
+    };
+    window.cancelAnimationFrame = (id) => frames.delete(id);
+    model.draw = () => {}; // nothing is looked at
+    const start = performance.now();
+    const places = new Set();
+    document.getElementById('tour').click();
+    for (let seconds = 0; seconds < 12; seconds += 0.1) { // a round takes 10
+      const due = [...frames.values()];
+      frames.clear();
+      due.forEach((step) => step(start + 1000 * seconds));
+      places.add(JSON.stringify(model.camera.position.clone().normalize().toArray()));
+    }
+    model.stop();
+    [...frames.values()].forEach((step) => step(start));
+    delete model.draw;
+    Object.assign(window, { requestAnimationFrame, cancelAnimationFrame });
+    return [[...places].map((place) => JSON.parse(place)), data.views.map(({ direction }) => direction)];
+  });
+  const [places, [best, , ...others]] = seen;
+  assert.equal(places.length, 4);
+  for (const direction of [best, ...others]) {
+    assert.ok(Math.min(...places.map((place) => distance(place, direction))) < 0.05, direction.join(' '));
+  }
+});
+
 test('the tour goes on until something else is asked for', async () => {
   const page = await opened();
   await page.emulateMedia({ reducedMotion: 'no-preference' });
@@ -325,19 +336,6 @@ test('opens on the model as it is; colours, legend, skeleton and contraction com
   await page.click('#show-map');
   assert.deepEqual(await shown(), [false, false, false]);
 });
-
-for (const width of [390, 850, 1280]) {
-  test(`at ${width} px nothing lies over the model or over another control`, async () => {
-    const page = await opened({ width, height: 844 }, width === 390 ? phone : {});
-    await page.click('#show-map');
-    const boxes = await page.locator('#window, #tools, #legend, #actions button').evaluateAll((all) => all
-      .map((one) => [one.id, one.getBoundingClientRect()]).map(([id, { left, right, top, bottom }]) => ({ id, left, right, top, bottom })));
-    assert.equal(boxes.length, 5);
-    const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
-    boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) => assert.ok(apart(a, b), JSON.stringify([a, b]))));
-    assert.ok(boxes[1].bottom - boxes[1].top > 300, JSON.stringify(boxes[1]));
-  });
-}
 
 test('a sphere of the score alone has no switch', async () => {
   const page = await opened();
@@ -435,72 +433,6 @@ test('a view counts as shown until the reader leaves it', async () => {
     window.vantage.model.controls.dispatchEvent({ type: 'start' });
   });
   assert.deepEqual(await shown(), []);
-});
-
-test('a finger turns the model', async () => {
-  const page = await opened({ width: 390, height: 844 }, phone);
-  const before = (await camera(page)).eye;
-  const box = await page.locator('#model').boundingBox();
-  const client = await page.context().newCDPSession(page);
-  const touch = (type, x) => client.send('Input.dispatchTouchEvent', {
-    type, touchPoints: type === 'touchEnd' ? [] : [{ x, y: box.y + box.height / 2 }] });
-  await touch('touchStart', box.x + 100);
-  for (let x = 110; x <= 200; x += 10) {
-    await touch('touchMove', box.x + x);
-  }
-  await touch('touchEnd', 0);
-  assert.ok(distance(before, (await camera(page)).eye) > 0.05 * (await camera(page)).radius);
-});
-
-for (const width of [390, 1280]) {
-  test(`at ${width} px all that is pressed is at least 44 px high`, async () => {
-    const page = await opened({ width, height: 844 }, width === 390 ? phone : {});
-    await page.click('#show-map');
-    const low = await page.locator('button, select, label, input[type=range]').evaluateAll((all) => all
-      .filter((one) => one.getClientRects().length > 0 && one.getBoundingClientRect().height < 44)
-      .map((one) => one.outerHTML.slice(0, 60)));
-    assert.deepEqual(low, []);
-    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
-  });
-}
-
-test('without WebGL there are the pictures and their cameras', async () => {
-  const first = await opened();
-  const page = await first.context().newPage();
-  await page.addInitScript(() => {
-    const { getContext } = HTMLCanvasElement.prototype;
-    HTMLCanvasElement.prototype.getContext = function other(type, ...rest) {
-      return /webgl/.test(type) ? null : getContext.call(this, type, ...rest);
-    };
-  });
-  await page.goto(first.url());
-  assert.equal(await page.locator('.view').count(), 2 + 3);
-  assert.match(await page.locator('#stage').innerText(), /^This browser draws nothing in 3D/);
-  const shown = () => page.getAttribute('#still', 'src');
-  const best = await shown();
-  await page.keyboard.press('w');
-  assert.match(await page.textContent('#camera-of'), /worst/);
-  assert.ok(best.startsWith('data:image/png') && await shown() !== best);
-  await page.keyboard.press('d');
-  assert.equal(await page.getAttribute('html', 'data-theme'), 'dark');
-  for (const dead of ['#tools', '#reset', '#tour', '#sphere', '#replay']) {
-    assert.equal(await page.isVisible(dead), false, dead);
-  }
-  await page.close();
-});
-
-test('without JavaScript the page says what it needs', async () => {
-  const first = await opened();
-  const context = await first.context().browser().newContext({ javaScriptEnabled: false });
-  const page = await context.newPage();
-  await page.goto(first.url());
-  assert.match((await page.locator('body').innerText()).trim(), /^Vantage\s+This page needs JavaScript\.[^.]+\.$/);
-  await context.close();
-});
-
-test('on a phone nothing is wider than the screen', async () => {
-  const page = await opened({ width: 360, height: 740 }, phone);
-  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
 });
 
 test('a view that is shown has one score, and elsewhere an estimate', async () => {

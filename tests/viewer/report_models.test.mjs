@@ -18,7 +18,7 @@ const reports = {
   far: [horse, ...rapid, '--distance', '60'],
   flat: [horse, ...rapid, '--projection', 'orthographic'],
   // Maximises what people choose; a rapid search maximises the score.
-  people: [`${markup}.ply`, '--size', '160x120'],
+  people: [`${markup}.ply`, '--size', '160x120', '--crease', '0'],
   soup: ['soup.obj', ...rapid, '--views', '40', '--contraction', 'exact'],
   row: ['row.obj', ...rapid, '--focus', 'b1', '--projection', 'orthographic'],
   lamp: ['lamp.glb', '--size', '160x120', '--contraction', 'exact', '--search', 'rapid'],
@@ -185,6 +185,17 @@ test('a name with markup is shown as text', async () => {
   assert.equal(await page.textContent('#name'), markup);
 });
 
+test('has facets where pictures have them', async () => {
+  const [page] = await opened('people');
+  const smooth = await page.evaluate(() => ['mesh', 'history'].map((part) => {
+    const { geometry } = window.vantage.model[part].mesh ?? window.vantage.model[part];
+    const normal = geometry.attributes.normal;
+    const at = (corner) => [0, 1, 2].map((axis) => normal.array[3 * geometry.index.array[corner] + axis]).join();
+    return Array.from({ length: geometry.index.count / 3 }, (_, f) => 3 * f).filter((c) => at(c) !== at(c + 1) || at(c) !== at(c + 2)).length;
+  }));
+  assert.deepEqual(smooth, [0, 0]);
+});
+
 test('who comes back to the page finds its controls as what is shown', async () => {
   const [page] = await opened('people');
   const controls = () => page.locator('input, select').evaluateAll((all) => all.map((one) => [one.id || one.value, one.checked, one.value]));
@@ -217,7 +228,10 @@ test('the sphere shows what best maximises until it is switched to the score', a
   // It opens at the best view.
   const [, share] = (await page.textContent('#direction')).match(/objective about ([\d.]+) % of the best view's/);
   assert.ok(Number(share) > 99 && Number(share) < 101, share);
+  const label = () => page.getAttribute('#sphere', 'aria-label');
+  assert.match(await label(), /by what the best view maximises;/);
   await page.check('input[name=sphere][value=score]');
+  assert.match(await label(), /by its score;/);
   assert.deepEqual(await highest(), await page.evaluate(() => {
     const { directions, scores } = window.vantage.data.sphere;
     return directions[scores.indexOf(Math.max(...scores))];

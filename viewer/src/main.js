@@ -32,18 +32,20 @@ const valueNear = (direction, values, { angle, value }) => {
   const share = Math.min(1, angle / SPACING_RAD);
   return (1 - share) * value + share * sphere.valueAt(direction, values);
 };
-/** Of the views that are shown, the nearest. */
-const nearestView = (direction) => {
-  const views = data.views.map((of) => ({ angle: direction.angleTo(new Vector3(...of.direction)), value: of.score }));
-  return views.reduce((a, b) => (b.angle < a.angle ? b : a));
+let traced = []; // where the replayed search stood; of large models its scores are estimates
+/** Of the views that are shown and those traced, the nearest. */
+const nearestKnown = (direction) => {
+  const known = [...data.views, ...traced].map((of) => ({
+    angle: direction.angleTo(new Vector3(...of.direction)), value: of.score, isExact: data.views.includes(of) }));
+  return known.reduce((a, b) => (b.angle < a.angle ? b : a));
 };
 const bestEye = new Vector3(...view.best.direction);
 
 function showDirection(direction, up) {
   sphere.turn(direction, up);
   const { scores, objective } = data.sphere;
-  const near = nearestView(direction);
-  const score = near.angle < SAME_RAD ? { value: near.value, isExact: true } : { value: valueNear(direction, scores, near) };
+  const near = nearestKnown(direction);
+  const score = near.angle < SAME_RAD ? near : { value: valueNear(direction, scores, near) };
   const best = { angle: direction.angleTo(bestEye), value: view.best.objective };
   panel.showDirection(direction, score, view.total,
     sphere.hasObjective && best.value > 0 ? valueNear(direction, objective, best) / best.value : undefined);
@@ -93,12 +95,16 @@ element('show-map').addEventListener('change', (event) => showAnalysis(event.tar
 element('show-skeleton').addEventListener('change', (event) => showSkeleton(event.target.checked));
 
 // What the best view maximises, and the score, on the sphere.
-if (!sphere?.hasObjective) {
+if (sphere?.hasObjective) {
+  showOnSphere('objective');
+} else {
   element('sphere-of').remove();
 }
 function showOnSphere(what) {
   document.querySelector(`input[name=sphere][value=${what}]`).checked = true;
   sphere.show(what);
+  element('sphere').setAttribute('aria-label',
+    `Every direction by ${what === 'score' ? 'its score' : 'what the best view maximises'}; click to look from there, or turn the model by arrow keys`);
 }
 for (const input of document.querySelectorAll('input[name=sphere]')) {
   input.addEventListener('change', () => showOnSphere(input.value));
@@ -172,6 +178,7 @@ function replay(flying) {
   const epsilon = 10 ** Number(element('epsilon').value);
   element('epsilon-text').textContent = Number(epsilon.toPrecision(2)).toString();
   const result = replayRapid(data.rapid[goal], goal, epsilon);
+  traced = result.path;
   sphere.showPath(result.path.map((step) => step.direction));
   // The search replayed looks for scores alone, whatever the best view maximises.
   panel.showReplay(result, ...(goal === 'best' ? ['highest', view.highest_score.score] : ['least', view.worst.score]));
@@ -202,6 +209,11 @@ const TOUR_DEG_PER_S = 36;
 if (data.tour) {
   const { degrees, views, poses } = data.tour;
   element('tour-text').textContent = `${Math.round(degrees)}° over ${views} views`;
+  // The poses nearest to the views that are shown, in their order on the way: where motion is unwelcome, these alone.
+  const stops = data.views.filter(({ name }) => name !== 'worst').map((of) => {
+    const angles = poses.map(({ eye, target }) => new Vector3(...eye).sub(new Vector3(...target)).angleTo(new Vector3(...of.direction)));
+    return angles.indexOf(Math.min(...angles));
+  }).sort((a, b) => a - b);
   element('tour').addEventListener('click', () => {
     const button = element('tour');
     if (model.touring) {
@@ -210,7 +222,7 @@ if (data.tour) {
     }
     press('');
     button.textContent = '❚❚ Tour';
-    model.tour(poses, (degrees / TOUR_DEG_PER_S) * 1000, () => { button.textContent = '▶ Tour'; });
+    model.tour(poses, stops, (degrees / TOUR_DEG_PER_S) * 1000, () => { button.textContent = '▶ Tour'; });
   });
 } else {
   element('tour-box').remove();
@@ -221,8 +233,14 @@ function setTheme(dark) {
   document.documentElement.dataset.theme = dark ? 'dark' : 'light';
   model?.draw();
 }
-setTheme(matchMedia('(prefers-color-scheme: dark)').matches);
-const toggleTheme = () => setTheme(document.documentElement.dataset.theme !== 'dark');
+const scheme = matchMedia('(prefers-color-scheme: dark)');
+const followSystem = () => setTheme(scheme.matches);
+followSystem();
+scheme.addEventListener('change', followSystem);
+function toggleTheme() {
+  scheme.removeEventListener('change', followSystem); // the reader has chosen
+  setTheme(document.documentElement.dataset.theme !== 'dark');
+}
 element('theme').addEventListener('click', toggleTheme);
 
 const toggle = (id) => element(id).click();

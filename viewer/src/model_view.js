@@ -289,17 +289,19 @@ export class ModelView {
     this.flight = requestAnimationFrame(step);
   }
 
-  /** Flies to a closed round of cameras, and along it until it is stopped. */
-  tour(poses, roundMs, onEnd) {
-    this.fly(poses[0], () => this.goRound(poses, roundMs));
+  /** Flies to a closed round of cameras, and along it until it is stopped.
+   *  @param stops places in `poses`, ascending, that a reader who wants no motion is shown, one after the other. */
+  tour(poses, stops, roundMs, onEnd) {
+    this.fly(poses[0], () => this.goRound(poses, stops, roundMs));
     this.touring = onEnd; // from now on, so that the way there can be stopped, too
   }
 
-  goRound(poses, roundMs) {
+  goRound(poses, stops, roundMs) {
     const start = performance.now();
     const mix = (a, b, share) => new THREE.Vector3(...a).lerp(new THREE.Vector3(...b), share);
     const step = (now) => {
-      const place = ((((now - start) / roundMs) % 1) + 1) % 1 * poses.length;
+      const part = ((((now - start) / roundMs) % 1) + 1) % 1;
+      const place = wantsNoMotion() ? stops[Math.floor(part * stops.length)] : part * poses.length;
       const from = poses[Math.floor(place) % poses.length];
       const to = poses[(Math.floor(place) + 1) % poses.length];
       const share = place - Math.floor(place);
