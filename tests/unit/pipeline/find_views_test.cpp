@@ -468,8 +468,7 @@ TEST(FindView, RefusesWhatSumsNoMap) {
 
 TEST(FindPictureView, IsTheBestView) {
   const FoundY& found = FoundY::once();
-  const PictureView view =
-      find_picture_view(found.model, prepare_surface(found.model), found.options);
+  const auto view = find_picture_view(found.model, prepare_surface(found.model), found.options);
   EXPECT_EQ(view.view.direction, found.report.best.direction);
   EXPECT_EQ(view.vertices, found.shape.surface.positions.size());
 }
