@@ -62,8 +62,8 @@ std::optional<float> texture_cutoff(const Material& material) {
   return static_cast<float>(material.alpha_cutoff / material.opacity);
 }
 
-/// How nearly solid or empty counts as it: more than what sums of texels are rounded by.
-constexpr double kSumRounding = 1e-5;
+/// So nearly solid or empty counts as it: more than what sums of texels are rounded by.
+constexpr double kNearly = 1e-5;
 
 }  // namespace
 
@@ -154,7 +154,7 @@ SurfaceMaterials::Shown SurfaceMaterials::at(std::uint32_t face, float u, float 
   }
   if (material.alpha == AlphaMode::Mask) {
     const double solid = of_texture.value_or(material.opacity >= material.alpha_cutoff ? 1.0 : 0.0);
-    shown.opacity = solid < kSumRounding ? 0.0 : solid > 1.0 - kSumRounding ? 1.0 : solid;
+    shown.opacity = solid < kNearly ? 0.0 : solid > 1.0 - kNearly ? 1.0 : solid;
   } else if (material.alpha == AlphaMode::Blend) {
     shown.opacity = material.opacity * of_texture.value_or(1.0);
   }

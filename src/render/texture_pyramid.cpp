@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kFull = 65535.0F;
 /// Rounding of sums of texels: far less than a step of 8 bits.
-constexpr float kRounding = 1e-5F;
+constexpr float kTexelRounding = 1e-5F;
 
 /// Linear light of each sRGB byte.
 const std::array<float, 256>& linear_table() {
@@ -93,11 +93,11 @@ TexturePyramid::Premultiplied TexturePyramid::cut(Premultiplied seen) const {
   if (!cutoff_ || is_opaque()) {
     return seen;
   }
-  if (seen[3] < *cutoff_ - kRounding) {
+  if (seen[3] < *cutoff_ - kTexelRounding) {
     return {};
   }
   // A cutoff of next to nothing lets pass what has no colour: it stays black.
-  const float alpha = std::max(seen[3], kRounding);
+  const float alpha = std::max(seen[3], kTexelRounding);
   return {seen[0] / alpha, seen[1] / alpha, seen[2] / alpha, 1.0F};
 }
 
