@@ -84,12 +84,13 @@ std::string with_keywords(std::string text) {
     std::string keyword = option.name;
     std::replace(keyword.begin(), keyword.end(), '-', '_');
     for (const std::string& word : option.words) {
-      const std::string flag = "--" + option.name + " " + word;
+      const std::string flag = std::string("--").append(option.name).append(" ").append(word);
       for (std::size_t at = text.find(flag); at != std::string::npos;
            at = text.find(flag, at + 1)) {
         const std::size_t end = at + flag.size();
         if (end == text.size() || text[end] == ' ' || text[end] == ',' || text[end] == ';') {
-          text.replace(at, flag.size(), keyword + "=\"" + word + "\"");
+          text.replace(at, flag.size(),
+                       std::string(keyword).append("=\"").append(word).append("\""));
         }
       }
     }

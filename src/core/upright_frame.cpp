@@ -10,12 +10,12 @@
 
 namespace vantage {
 
-UprightFrame upright_frame(const Vec3& towards) {
-  const Vec3 up = unit_direction(towards);
+UprightFrame upright_frame(const Vec3& up) {
+  const Vec3 unit = unit_direction(up);
   Eigen::Index axis = 0;
-  up.cwiseAbs().maxCoeff(&axis);
+  unit.cwiseAbs().maxCoeff(&axis);
   UprightFrame frame;
-  frame.up = Vec3::Unit(axis) * (up[axis] < 0.0 ? -1.0 : 1.0);
+  frame.up = Vec3::Unit(axis) * (unit[axis] < 0.0 ? -1.0 : 1.0);
   frame.front = axis == 2 ? Vec3(-Vec3::UnitY()) : Vec3(Vec3::UnitZ());
   frame.side = frame.up.cross(frame.front);
   return frame;

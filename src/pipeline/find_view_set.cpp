@@ -173,10 +173,10 @@ Aim aim_at(const Vec3& focus, const TourPose& pose, const ScoringCamera& camera)
 }  // namespace
 
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                              const ViewScorer& scorer, const Vec3& first, const ModelFrame& frame,
+                              const ViewScorer& scorer, const Vec3& best, const ModelFrame& frame,
                               const ViewOptions& options, std::vector<std::string>& warnings,
                               const RunContext& run) {
-  const Vec3 best = unit_direction(first);
+  const Vec3 first = unit_direction(best);
   const ScoringCamera& camera = scorer.camera();
   const ViewSetRequest& request = options.view_set.value();
   check_fields(request, kViewSetRequestFields);
@@ -186,7 +186,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
   }
   const RunContext rest = run.part(sphere ? 0.3 : 0.0, 1.0);
   const auto select = [&](const auto& visible) {
-    return select_views(visible, scorer.shares(), camera, best, request.set, rest);
+    return select_views(visible, scorer.shares(), camera, first, request.set, rest);
   };
   const auto measure = [&](const auto& visible, const std::vector<Vec3>& chosen) {
     return measure_views(visible, scorer.shares(), camera, chosen, request.set, rest);
@@ -213,7 +213,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
   }
   result.tour = shortest_tour(directions, run);
   if (request.path == TourPath::Explore) {
-    result.way = explored_way(*sphere, best, request, run);
+    result.way = explored_way(*sphere, first, request, run);
   }
   return result;
 }

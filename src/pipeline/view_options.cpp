@@ -101,11 +101,11 @@ UpAxis default_front(UpAxis up) {
   return axis_nearest(upright_frame(up_vector(up)).front);
 }
 
-UpAxis axis_nearest(const Vec3& towards) {
-  const Vec3 direction = unit_direction(towards);
+UpAxis axis_nearest(const Vec3& direction) {
+  const Vec3 unit = unit_direction(direction);
   UpAxis nearest = UpAxis::X;
   for (const UpAxis axis : {UpAxis::Y, UpAxis::Z, UpAxis::MinusX, UpAxis::MinusY, UpAxis::MinusZ}) {
-    nearest = up_vector(axis).dot(direction) > up_vector(nearest).dot(direction) ? axis : nearest;
+    nearest = up_vector(axis).dot(unit) > up_vector(nearest).dot(unit) ? axis : nearest;
   }
   return nearest;
 }

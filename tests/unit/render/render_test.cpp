@@ -149,12 +149,12 @@ TEST(Render, EdgesOfATransparentPictureHaveNoDarkFringe) {
   EXPECT_GT(partial, 50);
 }
 
-TEST(Render, ALineHalfAPixelWideHasNoGaps) {
-  // It passes between the middles of pixels for most of its length.
+/// A line across the picture covers `wide` of each column of pixels, px. \param rise of its right end, px.
+void expect_covered(double low, double wide, double rise, double tolerance) {
   constexpr int kPictureSide = 100;
-  constexpr double kWide = 0.5;
   TriMesh line;
-  line.positions = {{-40, 0, 0}, {40, 3, 0}, {40, 3 + kWide, 0}, {-40, kWide, 0}};
+  line.positions = {
+      {-40, low, 0}, {40, low + rise, 0}, {40, low + rise + wide, 0}, {-40, low + wide, 0}};
   line.triangles = {{0, 1, 2}, {0, 2, 3}};
   const Image image = render(line, front(kPictureSide), {}, {}, square(kPictureSide));
   for (int x = 20; x < 80; ++x) {
@@ -162,26 +162,18 @@ TEST(Render, ALineHalfAPixelWideHasNoGaps) {
     for (int y = 0; y < kPictureSide; ++y) {
       column += image.pixel(x, y)[3] / 255.0;
     }
-    EXPECT_NEAR(column, kWide, 0.15) << x;
+    EXPECT_NEAR(column, wide, tolerance) << x;
   }
+}
+
+TEST(Render, ALineHalfAPixelWideHasNoGaps) {
+  // It passes between the middles of pixels for most of its length.
+  expect_covered(0.0, 0.5, 3.0, 0.15);
 }
 
 TEST(Render, ALineBetweenTwoRowsOfPixelsIsSeen) {
   // Neither the middles of the pixels nor the few samples around them meet it, their corners do.
-  constexpr int kPictureSide = 100;
-  constexpr double kWide = 0.2;
-  TriMesh line;
-  line.positions = {
-      {-40, -kWide / 2, 0}, {40, -kWide / 2, 0}, {40, kWide / 2, 0}, {-40, kWide / 2, 0}};
-  line.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const Image image = render(line, front(kPictureSide), {}, {}, square(kPictureSide));
-  for (int x = 20; x < 80; ++x) {
-    double column = 0.0;
-    for (int y = 0; y < kPictureSide; ++y) {
-      column += image.pixel(x, y)[3] / 255.0;
-    }
-    EXPECT_NEAR(column, kWide, 0.1) << x;
-  }
+  expect_covered(-0.1, 0.2, 0.0, 0.1);
 }
 
 TEST(PictureSurface, TakesThePicturesOfSeveralPaintsAndCamerasThatEachWouldTakeAlone) {
