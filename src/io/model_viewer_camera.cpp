@@ -115,13 +115,13 @@ std::string html_text(std::string_view text) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const Camera& camera,
-                                                                         const Vec3& up_of_model) {
+                                                                         const Vec3& up) {
   if (camera.projection != Projection::Perspective) {
     return {};
   }
-  const Vec3 up = unit_direction(up_of_model);
+  const Vec3 unit_up = unit_direction(up);
   const Matrix3 axes = camera_axes(camera).transpose();  // right, up and back as rows
-  const Matrix3 turn = roll_against(axes, up) < kMostRoll ? turn_to_y(up) : axes;
+  const Matrix3 turn = roll_against(axes, unit_up) < kMostRoll ? turn_to_y(unit_up) : axes;
   const Matrix3 turned = axes * turn.transpose();  // the camera's axes in the element's scene
   // Straight above or below, right says it: (cos, 0, −sin).
   double azimuth = turned.row(2).cross(Vec3::UnitY()).norm() > kLevel

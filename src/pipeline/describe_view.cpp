@@ -42,18 +42,18 @@ ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& opti
 }
 
 ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                           const ScoringCamera& camera, const Vec3& towards, UpAxis up,
+                           const ScoringCamera& camera, const Vec3& direction, UpAxis up,
                            const ViewOptions& options, const RunContext& run) {
-  const Vec3 direction = unit_direction(towards);
-  const auto visible = visibility.visible_vertices(camera.viewpoint(direction), run.quiet());
+  const Vec3 to_eye = unit_direction(direction);
+  const auto visible = visibility.visible_vertices(camera.viewpoint(to_eye), run.quiet());
   double total = 0.0;
   for (const double value : shape.significance) {
     total += value;
   }
   ReportedView view;
-  view.direction = direction;
-  view.eye = camera.eye(direction);
-  view.up = upright(direction, up_vector(up));
+  view.direction = to_eye;
+  view.eye = camera.eye(to_eye);
+  view.up = upright(to_eye, up_vector(up));
   if (!shape.significance.empty()) {  // which measures of other things do without
     view.score = visible_sum(shape.significance, visible);
   }

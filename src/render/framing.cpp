@@ -259,21 +259,21 @@ Camera frame_orthographic(std::span<const Vec3> points, const Vec3& direction, c
 
 }  // namespace
 
-Vec3 upright(const Vec3& towards, const Vec3& up_of_model) {
-  const Vec3 direction = unit_direction(towards);
-  const Vec3 model_up = unit_direction(up_of_model);
-  const Vec3 radial = orthogonal_part(model_up, direction);
+Vec3 upright(const Vec3& direction, const Vec3& model_up) {
+  const Vec3 to_eye = unit_direction(direction);
+  const Vec3 up = unit_direction(model_up);
+  const Vec3 radial = orthogonal_part(up, to_eye);
   const double sine = radial.norm();
-  const bool above = direction.dot(model_up) > 0.0;
+  const bool above = to_eye.dot(up) > 0.0;
   if (sine >= std::sin(kPoleConeRad)) {
     return radial / sine;
   }
-  const Vec3 front = front_of(model_up);
-  Vec3 fixed = orthogonal_part(above ? Vec3(-front) : front, direction).normalized();
+  const Vec3 front = front_of(up);
+  Vec3 fixed = orthogonal_part(above ? Vec3(-front) : front, to_eye).normalized();
   if (sine <= kNegligible) {
     return fixed;
   }
-  const Vec3 side = direction.cross(fixed);
+  const Vec3 side = to_eye.cross(fixed);
   const double across = radial.dot(side) / sine;
   // From exactly behind both ways round are as long; rounding must not choose.
   const double turn =

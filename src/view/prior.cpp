@@ -7,12 +7,12 @@
 
 namespace vantage {
 
-double ViewPrior::factor(const UprightFrame& frame, const Vec3& towards) const {
+double ViewPrior::factor(const UprightFrame& frame, const Vec3& direction) const {
   if (is_uniform) {
     return 1.0;
   }
-  const Vec3 direction = unit_direction(towards);
-  const Vec3 local(frame.side.dot(direction), frame.up.dot(direction), frame.front.dot(direction));
+  const Vec3 to_eye = unit_direction(direction);
+  const Vec3 local(frame.side.dot(to_eye), frame.up.dot(to_eye), frame.front.dot(to_eye));
   const double rise = local.y() - upright.elevation_sine;
   const double corner = 2.0 * local.x() * local.z();
   const double value = std::exp(-upright.elevation_strength * rise * rise -

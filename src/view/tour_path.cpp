@@ -120,18 +120,18 @@ double unwrapped(double angle, double near) {
 
 }  // namespace
 
-std::vector<TourPose> tour_path(std::span<const Vec3> stops, const Vec3& up_of_model,
+std::vector<TourPose> tour_path(std::span<const Vec3> stops, const Vec3& model_up,
                                 std::size_t count) {
   if (stops.size() < 2 || count < 3) {
     throw InvalidInput("a tour's path needs at least two stops and three poses");
   }
-  const Vec3 model_up = unit_direction(up_of_model);
+  const Vec3 unit_up = unit_direction(model_up);
   std::vector<Vec3> units(stops.begin(), stops.end());
   std::ranges::transform(units, units.begin(), unit_direction);
-  const std::vector<Vec3> directions = equal_steps(units, model_up, count);
+  const std::vector<Vec3> directions = equal_steps(units, unit_up, count);
   // A frame carried along without turning about the line of sight; upright is an angle in it.
   std::vector<Vec3> zero{directions[0].unitOrthogonal()};
-  std::vector<double> upright{roll_of(model_up, directions[0], zero[0])};
+  std::vector<double> upright{roll_of(unit_up, directions[0], zero[0])};
   std::vector<double> weights;
   double step = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -139,8 +139,8 @@ std::vector<TourPose> tour_path(std::span<const Vec3> stops, const Vec3& up_of_m
     const Vec3& next = directions[(i + 1) % count];
     const Vec3 carried = shortest_rotation(here, next) * zero[i];
     zero.push_back((carried - carried.dot(next) * next).normalized());
-    upright.push_back(unwrapped(roll_of(model_up, next, zero[i + 1]), upright[i]));
-    weights.push_back(std::max(kLeastWeight, 1.0 - std::pow(here.dot(model_up), 2)));
+    upright.push_back(unwrapped(roll_of(unit_up, next, zero[i + 1]), upright[i]));
+    weights.push_back(std::max(kLeastWeight, 1.0 - std::pow(here.dot(unit_up), 2)));
     step += angle_between(here, next) / static_cast<double>(count);
   }
   // Least Σ w (θ − upright)² + coupling Σ (θ' − θ)², where the last θ' is the first θ, turned by as
