@@ -82,7 +82,8 @@ Model parse_amf(std::string_view bytes, std::string_view name, const RunContext&
   if (document.has_sized_instances()) {
     builder.note("scales and mirrors of instances left out, which AMF does not have");
   }
-  PlateReader reader(parts, bytes.size(), surroundings.options.max_faces, builder);
+  builder.limit_faces(surroundings.options.max_faces);
+  PlateReader reader(parts, bytes.size(), builder);
   if (!part.objects.empty()) {
     reader.read("");
   }

@@ -34,12 +34,10 @@ constexpr std::size_t kMostVisitsInSmallFile = 10'000;
 
 class SceneReader {
  public:
-  /// \param most_faces that may be shown together; 0: any number.
-  SceneReader(const GltfDocument& document, std::size_t most_faces, ModelBuilder& builder)
+  SceneReader(const GltfDocument& document, ModelBuilder& builder)
       : document_(document),
         gltf_(document.structure),
         builder_(builder),
-        most_faces_(most_faces),
         of_mesh_(document.structure.meshes.size()) {}
 
   void read() {
@@ -208,9 +206,7 @@ class SceneReader {
     spend(of_mesh_[m]->spent);
     faces_ += of_mesh_[m]->faces;
     vertices_ += of_mesh_[m]->vertices;
-    if (is_beyond_limit(faces_, vertices_, most_faces_)) {
-      builder_.fail(too_many_faces(most_faces_, faces_ <= most_faces_));
-    }
+    builder_.check_counts(faces_, vertices_);
   }
 
   /// Elements of an accessor; of one that is not there none, which is complained of when it is read.
@@ -436,7 +432,6 @@ class SceneReader {
   std::map<int, GltfSkin> skins_{};
   const tinygltf::Model& gltf_;
   ModelBuilder& builder_;
-  std::size_t most_faces_;
   std::vector<std::optional<Amount>> of_mesh_;  // where it was asked for
   std::map<int, std::size_t> elements_{};       // of accessors that were asked for
   bool is_counting_ = false;
@@ -464,7 +459,8 @@ Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext
     builder.keep_appearance(/*of_vertices=*/true);
   }
   const GltfDocument document = read_gltf_document(bytes, surroundings, builder);
-  SceneReader reader(document, surroundings.options.max_faces, builder);
+  builder.limit_faces(surroundings.options.max_faces);
+  SceneReader reader(document, builder);
   reader.read();
   Model model = builder.finish();
   model.colours_are_materials = !model.vertex_colours.empty() && !reader.vertices_have_colours();

@@ -125,11 +125,9 @@ Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext&
                 std::size_t max_points) {
   bytes = without_bom(bytes);
   ModelBuilder builder(ModelFormat::Pcd, name, run, 0);
+  builder.limit_faces(max_points);
   const PcdHeader header = read_pcd_header(bytes, builder);
-  // What marks missing ones is not known yet.
-  if (is_beyond_limit(0, header.points, max_points)) {
-    builder.fail(too_many_faces(max_points, /*of_points=*/true));
-  }
+  builder.check_counts(0, header.points);  // what marks missing ones is not known yet
   if (std::any_of(header.fields.begin(), header.fields.end(), [](const PcdField& field) {
         return field.name == "rgb" || field.name == "rgba";
       })) {

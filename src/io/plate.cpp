@@ -48,9 +48,8 @@ std::vector<PlateUse> uses_of_wholes(const PlatePart& part) {
   return uses;
 }
 
-PlateReader::PlateReader(const PlateParts& parts, std::size_t file_bytes, std::size_t most_faces,
-                         ModelBuilder& builder)
-    : parts_(parts), builder_(builder), file_bytes_(file_bytes), most_faces_(most_faces) {
+PlateReader::PlateReader(const PlateParts& parts, std::size_t file_bytes, ModelBuilder& builder)
+    : parts_(parts), builder_(builder), file_bytes_(file_bytes) {
   std::uint32_t first = 0;
   for (const auto& [name, part] : parts) {
     objects_ += part.objects.size();
@@ -184,9 +183,7 @@ void PlateReader::add_mesh(const PlateObject& object, const Visit& visit) {
   if (is_counting_) {
     faces_ += object.triangles.size();
     points_ += object.points.size();
-    if (is_beyond_limit(faces_, points_, most_faces_)) {
-      builder_.fail(too_many_faces(most_faces_, faces_ <= most_faces_));
-    }
+    builder_.check_counts(faces_, points_);
     return;
   }
   builder_.begin_part(object.name);

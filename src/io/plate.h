@@ -80,9 +80,8 @@ using PlateParts = std::map<std::string, PlatePart, std::less<>>;
 /// Puts the items of the build plate where they stand.
 class PlateReader {
  public:
-  /// \param most_faces that may be shown together; 0: any number. All must outlive this.
-  PlateReader(const PlateParts& parts, std::size_t file_bytes, std::size_t most_faces,
-              ModelBuilder& builder);
+  /// All must outlive this.
+  PlateReader(const PlateParts& parts, std::size_t file_bytes, ModelBuilder& builder);
 
   /// \param root the part to begin with. \throw FormatError
   void read(const std::string& root);
@@ -119,7 +118,6 @@ class PlateReader {
   const PlateParts& parts_;
   ModelBuilder& builder_;
   std::size_t file_bytes_;
-  std::size_t most_faces_;
   bool is_counting_ = false;
   std::size_t faces_ = 0;   // counted
   std::size_t points_ = 0;  // so too

@@ -161,7 +161,8 @@ Model parse_threemf(std::string_view bytes, std::string_view name, const RunCont
   if (has_corner_colours && builder.keeps_appearance()) {
     builder.note("colours of corners left out: a triangle has that of its first");
   }
-  PlateReader reader(parts, bytes.size(), surroundings.options.max_faces, builder);
+  builder.limit_faces(surroundings.options.max_faces);
+  PlateReader reader(parts, bytes.size(), builder);
   reader.read(root);
   for (const std::string& extension : unread_extensions(parts)) {
     if (!reader.shows_triangles()) {
